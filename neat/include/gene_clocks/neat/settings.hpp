@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+
+namespace gene_clocks::neat {
+
+/// How W, the weight term of the genotypic distance, is formed.
+enum class WeightDifference : std::uint8_t {
+    sum,   ///< the sum of |Δw| over matching genes, as the published runs had it
+    mean,  ///< the mean, as Equation 1 has it
+};
+
+/// What the energy in a message does to a genome that the receiver already holds.
+enum class HeldEnergy : std::uint8_t {
+    overwrite,     ///< replaces the recorded fitness, as the published runs had it
+    running_mean,  ///< is averaged in (paper, section 3.2)
+};
+
+/// The parameters of odNEAT (paper, Table 1 and section 3.2). Defaults: set B, as run.
+struct OdneatSettings {
+    double p_mate = 0.212;        ///< probability that an offspring has two parents
+    double p_mutate = 0.244;      ///< probability that an offspring is mutated
+    double p_weight = 0.559;      ///< p_w: mutate all weights, if no structural mutation struck
+    double p_node = 0.422;        ///< add a neuron
+    double p_connection = 0.275;  ///< add a connection, if no neuron was added
+    double p_recurrent = 0.526;   ///< the new connection is recurrent
+    double sigma = 0.114;         ///< standard deviation of a weight mutation
+    std::int64_t maturation_cycles = 27;  ///< T_m: no replacement before this age
+    std::int64_t population = 7;          ///< |P|: genomes that a robot holds, the active one included
+
+    double c_excess = 0.5;             ///< c1 of Equation 1
+    double c_disjoint = 1.5;           ///< c2 of Equation 1
+    double c_weight = 0.4;             ///< c3 of Equation 1
+    double species_threshold = 3.0;    ///< a genome belongs to a species if it is nearer
+    double tabu_threshold = 1.0;       ///< a genome resembles a tabu entry if it is nearer
+    std::int64_t tabu_receptions = 50;  ///< receptions that a tabu entry lasts
+    WeightDifference weight_difference = WeightDifference::sum;
+    HeldEnergy held_energy = HeldEnergy::running_mean;
+
+    double weight_limit = 10.0;      ///< weights stay within ±weight_limit
+    double activation_slope = 4.924273;  ///< k in 1 / (1 + exp(−k x))
+    double energy_initial = 100.0;   ///< energy of a new genome; also its first fitness sample
+    double energy_maximum = 200.0;   ///< energy is kept within [0, energy_maximum]
+    std::int64_t fitness_period_cycles = 10;  ///< fitness samples the energy this often
+    std::int64_t structural_tries = 20;       ///< draws before a structural mutation gives up
+    double disable_probability = 0.75;  ///< a matching gene disabled in one parent is disabled
+};
+
+}  // namespace gene_clocks::neat
