@@ -26,24 +26,24 @@ struct OdneatSettings {
     double p_recurrent = 0.526;   ///< the new connection is recurrent
     double sigma = 0.114;         ///< standard deviation of a weight mutation
     std::int64_t maturation_cycles = 27;  ///< T_m: no replacement before this age
-    std::int64_t population = 7;          ///< |P|: genomes that a robot holds, the active one included
+    std::int64_t population = 7;  ///< |P|: genomes that a robot holds, the active one included
 
-    double c_excess = 0.5;             ///< c1 of Equation 1
-    double c_disjoint = 1.5;           ///< c2 of Equation 1
-    double c_weight = 0.4;             ///< c3 of Equation 1
-    double species_threshold = 3.0;    ///< a genome belongs to a species if it is nearer
-    double tabu_threshold = 1.0;       ///< a genome resembles a tabu entry if it is nearer
+    double c_excess = 0.5;              ///< c1 of Equation 1
+    double c_disjoint = 1.5;            ///< c2 of Equation 1
+    double c_weight = 0.4;              ///< c3 of Equation 1
+    double species_threshold = 3.0;     ///< a genome belongs to a species if it is nearer
+    double tabu_threshold = 1.0;        ///< a genome resembles a tabu entry if it is nearer
     std::int64_t tabu_receptions = 50;  ///< receptions that a tabu entry lasts
     WeightDifference weight_difference = WeightDifference::sum;
     HeldEnergy held_energy = HeldEnergy::running_mean;
 
-    double weight_limit = 10.0;      ///< weights stay within ±weight_limit
+    double weight_limit = 10.0;          ///< weights stay within ±weight_limit
     double activation_slope = 4.924273;  ///< k in 1 / (1 + exp(−k x))
-    double energy_initial = 100.0;   ///< energy of a new genome; also its first fitness sample
-    double energy_maximum = 200.0;   ///< energy is kept within [0, energy_maximum]
+    double energy_initial = 100.0;       ///< energy of a new genome; also its first fitness sample
+    double energy_maximum = 200.0;       ///< energy is kept within [0, energy_maximum]
     std::int64_t fitness_period_cycles = 10;  ///< fitness samples the energy this often
     std::int64_t structural_tries = 20;       ///< draws before a structural mutation gives up
-    double disable_probability = 0.75;  ///< a matching gene disabled in one parent is disabled
+    double disable_probability = 0.875;       ///< of a matching gene that is disabled in one parent
 };
 
 }  // namespace gene_clocks::neat

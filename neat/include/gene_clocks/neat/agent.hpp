@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "gene_clocks/neat/controller.hpp"
+#include "gene_clocks/neat/genome.hpp"
+#include "gene_clocks/neat/innovation_source.hpp"
+#include "gene_clocks/neat/mutation.hpp"
+#include "gene_clocks/neat/population.hpp"
+#include "gene_clocks/neat/random.hpp"
+#include "gene_clocks/neat/settings.hpp"
+#include "gene_clocks/neat/tabu_list.hpp"
+
+namespace gene_clocks::neat {
+
+/// What a robot broadcasts (paper, section 3.2): its active genome, its energy, and what its
+/// innovation source adds; with gene clocks that is the counter c_r.
+struct Message {
+    std::shared_ptr<const Genome> genome;
+    float energy{};
+    Stamp stamp;
+};
+
+/// What became of a received message.
+enum class Reception : std::uint8_t {
+    accepted,  ///< the genome is now in the population
+    updated,   ///< it was held already; its fitness has been updated
+    tabu,      ///< it resembles a tabu entry
+    unfit,     ///< the population is full of better ones
+    refused,   ///< the innovation source refused the stamp; nothing changed
+};
+
+/// How an offspring came about.
+struct Birth {
+    bool mated = false;  ///< it has two different parents
+    Mutation mutation = Mutation::none;
+};
+
+/// One robot's odNEAT (paper, Algorithm 1), as a state machine without I/O, threads or time.
+///
+/// The caller runs, once a cycle: `broadcast_probability()` and `message()`, `receive()` for each
+/// message that arrives, `control()`, `spend()`, and `replace()` where `is_depleted()`.
+class Agent {
+public:
+    /// `settings` must outlive the agent; `topology` is the one all robots start from.
+    Agent(RobotId robot, const OdneatSettings& settings, std::shared_ptr<const Topology> topology,
+          std::unique_ptr<InnovationSource> source, RandomStream random);
+
+    /// Probability of a broadcast in this cycle: the fitness share of the active genome's species.
+    double broadcast_probability() {
+        if (!share_is_current_) refresh_share();
+        return share_;
+    }
+    Message message() const { return {active_, energy_, source_->stamp()}; }
+
+    Reception receive(const Message& message);
+
+    /// Runs the controller; see Controller::update.
+    std::span<const float> control(std::span<const float> inputs) {
+        return controller_.update(inputs);
+    }
+
+    /// Applies a change of energy without ageing (an item, say). Clamped to [0, energy_maximum].
+    void gain(float energy_change) {
+        const float changed = energy_ + energy_change;
+        const float capped = changed < energy_maximum_ ? changed : energy_maximum_;
+        energy_ = capped > 0.0f ? capped : 0.0f;
+    }
+
+    /// Ends a cycle: applies its change of energy, ages the genome, samples its fitness when due.
+    void spend(float energy_change) {
+        gain(energy_change);
+        ++age_cycles_;
+        if (--cycles_to_sample_ == 0) sample_fitness();
+    }
+
+    /// Whether the active genome is to be replaced: out of energy, and past maturation.
+    bool is_depleted() const { return energy_ <= 0.0f && age_cycles_ > maturation_cycles_; }
+
+    /// Replaces the active genome by an offspring of the population.
+    Birth replace(double now_cycles);
+
+    RandomStream& random() { return random_; }
+    RobotId robot() const { return robot_; }
+    float energy() const { return energy_; }
+    float fitness() const { return fitness_; }
+    const Genome& active() const { return *active_; }
+    const Population& population() const { return population_; }
+    const TabuList& tabu_list() const { return tabu_; }
+    const InnovationSource& source() const { return *source_; }
+
+private:
+    void activate(std::shared_ptr<const Genome> genome);
+    void sample_fitness();
+    void refresh_share();
+    Genome make_offspring(Birth& birth, double now_cycles);
+
+    // What every cycle touches comes first.
+    float energy_;
+    float energy_maximum_;
+    float fitness_ = 0.0f;  // mean of the energy samples of the active genome
+    bool share_is_current_ = false;
+    double share_ = 0.0;
+    std::int64_t age_cycles_ = 0;
+    std::int64_t cycles_to_sample_ = 0;  // invariant: > 0
+    std::int64_t maturation_cycles_;
+    Controller controller_;                 // of active_
+    std::shared_ptr<const Genome> active_;  // invariant: a member of population_
+
+    double energy_sum_ = 0.0;
+    std::int64_t energy_samples_ = 0;
+    RobotId robot_;
+    std::uint32_t births_ = 0;
+    const OdneatSettings& settings_;
+    std::unique_ptr<InnovationSource> source_;
+    RandomStream random_;
+    Population population_;
+    TabuList tabu_;
+};
+
+}  // namespace gene_clocks::neat

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "gene_clocks/gene_clock.hpp"
+#include "gene_clocks/neat/innovation_source.hpp"
+
+namespace gene_clocks::neat {
+
+/// Marks genes with a gene clock (paper, section 3.1).
+class GeneClockSource final : public InnovationSource {
+public:
+    /// Preconditions: those of GeneClock.
+    GeneClockSource(RobotId robot, std::uint64_t genesis_count) : clock_(robot, genesis_count) {}
+
+    std::optional<SplitMarks> mark_split(const Genome&, std::size_t, double) override {
+        const auto marks = clock_.mint(3);
+        if (!marks) return std::nullopt;
+        return SplitMarks{(*marks)[0], (*marks)[1], (*marks)[2]};
+    }
+    std::optional<InnovationNumber> mark_connection(const Genome&, const ConnectionEnds&,
+                                                    double) override {
+        return clock_.mint();
+    }
+    Stamp stamp() const override { return clock_.stamp(); }
+    bool observe(Stamp stamp) override { return clock_.observe(stamp); }
+
+private:
+    GeneClock clock_;
+};
+
+}  // namespace gene_clocks::neat

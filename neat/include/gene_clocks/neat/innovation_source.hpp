@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+
+#include "gene_clocks/innovation_number.hpp"
+#include "gene_clocks/neat/genome.hpp"
+
+namespace gene_clocks::neat {
+
+/// The marks of the three genes that add-neuron creates.
+struct SplitMarks {
+    InnovationNumber neuron;
+    InnovationNumber incoming;
+    InnovationNumber outgoing;
+};
+
+/// What marks the new genes of one robot.
+///
+/// Called at structural mutations and once per message, never in the path of every cycle. A
+/// source may look at the genome and the place that the mutation changes, so that sources which
+/// derive a mark from structure fit behind the same interface as clocks.
+///
+/// A mark that is returned is new to the genome and sorts after the genesis marks. nullopt means
+/// that the source cannot mark this innovation (exhausted, say): the mutation does not happen.
+class InnovationSource {
+public:
+    virtual ~InnovationSource() = default;
+
+    /// Marks for splitting `genome`'s connection at index `connection` at time `now_cycles`.
+    virtual std::optional<SplitMarks> mark_split(const Genome& genome, std::size_t connection,
+                                                 double now_cycles) = 0;
+
+    /// A mark for joining `ends` in `genome` at time `now_cycles`.
+    virtual std::optional<InnovationNumber> mark_connection(const Genome& genome,
+                                                            const ConnectionEnds& ends,
+                                                            double now_cycles) = 0;
+
+    /// What a message carries beside the genome; zero for a source that sends nothing.
+    virtual Stamp stamp() const = 0;
+
+    /// Reception of a message's stamp. False: the message must be dropped whole.
+    virtual bool observe(Stamp stamp) = 0;
+};
+
+}  // namespace gene_clocks::neat

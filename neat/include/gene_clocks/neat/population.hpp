@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gene_clocks/neat/crossover.hpp"
+#include "gene_clocks/neat/distance.hpp"
+#include "gene_clocks/neat/genome.hpp"
+#include "gene_clocks/neat/random.hpp"
+
+namespace gene_clocks::neat {
+
+/// The genomes that a robot holds, divided into species with shared fitness (paper, section 3.2).
+class Population {
+public:
+    struct Member {
+        std::shared_ptr<const Genome> genome;
+        float fitness;         ///< raw: mean energy, as measured here or reported by messages
+        std::int64_t reports;  ///< energies that `fitness` is the mean of, for received genomes
+        std::size_t species;   ///< index; meaningless until placed
+    };
+
+    explicit Population(const OdneatSettings& settings);
+
+    const std::vector<Member>& members() const { return members_; }
+    std::size_t species_count() const { return species_.size(); }
+    bool is_full() const { return members_.size() >= capacity_; }
+    std::optional<std::size_t> find(GenomeId id) const;
+
+    /// The member of lowest raw fitness, the first of equals; `except` is passed over. nullopt
+    /// where there is no other.
+    std::optional<std::size_t> worst(std::optional<GenomeId> except = std::nullopt) const;
+
+    /// Adds a genome and places it in the first species whose representative is nearer than the
+    /// threshold, or in a new one. Precondition: not full.
+    void add(std::shared_ptr<const Genome> genome, float fitness);
+
+    /// Takes a member out and returns its genome.
+    std::shared_ptr<const Genome> remove(std::size_t index);
+
+    void set_fitness(std::size_t index, float fitness);
+
+    /// Another report of a held genome's energy.
+    void report(std::size_t index, float energy, HeldEnergy rule);
+
+    /// Divides all members anew, in the order in which they came.
+    void speciate();
+
+    /// The species' share of all species' fitness, a probability; 0 where the sum is 0.
+    /// The fitness of a species is the mean of its members' fitness over its size.
+    float species_share(std::size_t member);
+
+    /// A species by roulette on fitness; a uniform one where all have none.
+    std::size_t select_species(RandomStream& random);
+
+    /// The fitter of two distinct random members of a species, or its only one.
+    std::size_t select_parent(std::size_t species, RandomStream& random) const;
+
+private:
+    struct Species {
+        std::shared_ptr<const Genome> representative;  // the member that was placed first
+        float fitness = 0.0f;
+    };
+
+    void place(Member& member);
+    void refresh_fitness();
+
+    DistanceMeasure measure_;
+    float threshold_;
+    std::size_t capacity_;
+    std::vector<Member> members_;   // invariant: at most capacity_, no genome twice
+    std::vector<Species> species_;  // invariant: none is empty once every member is placed
+    bool fitness_is_current_ = false;
+    float total_fitness_ = 0.0f;  // over species
+};
+
+}  // namespace gene_clocks::neat

@@ -1,0 +1,142 @@
+#include "gene_clocks/neat/population.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace gene_clocks::neat {
+
+Population::Population(const OdneatSettings& settings)
+    : measure_(settings),
+      threshold_(static_cast<float>(settings.species_threshold)),
+      capacity_(static_cast<std::size_t>(settings.population)) {
+    members_.reserve(capacity_);
+}
+
+std::optional<std::size_t> Population::find(GenomeId id) const {
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        if (members_[i].genome->id == id) return i;
+    }
+    return std::nullopt;
+}
+
+std::optional<std::size_t> Population::worst(std::optional<GenomeId> except) const {
+    std::optional<std::size_t> worst;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        if (except && members_[i].genome->id == *except) continue;
+        if (!worst || members_[i].fitness < members_[*worst].fitness) worst = i;
+    }
+    return worst;
+}
+
+void Population::add(std::shared_ptr<const Genome> genome, float fitness) {
+    assert(!is_full() && !find(genome->id));
+    members_.push_back({std::move(genome), fitness, 1, 0});
+    place(members_.back());
+}
+
+std::shared_ptr<const Genome> Population::remove(std::size_t index) {
+    const std::size_t species = members_[index].species;
+    auto genome = std::move(members_[index].genome);
+    members_.erase(members_.begin() + static_cast<std::ptrdiff_t>(index));
+    fitness_is_current_ = false;
+
+    const auto heir = std::find_if(members_.begin(), members_.end(),
+                                   [&](const Member& member) { return member.species == species; });
+    if (heir == members_.end()) {
+        species_.erase(species_.begin() + static_cast<std::ptrdiff_t>(species));
+        for (Member& member : members_) {
+            if (member.species > species) --member.species;
+        }
+    } else if (species_[species].representative == genome) {
+        species_[species].representative = heir->genome;
+    }
+    return genome;
+}
+
+void Population::set_fitness(std::size_t index, float fitness) {
+    members_[index].fitness = fitness;
+    fitness_is_current_ = false;
+}
+
+void Population::report(std::size_t index, float energy, HeldEnergy rule) {
+    Member& member = members_[index];
+    ++member.reports;
+    if (rule == HeldEnergy::overwrite) {
+        set_fitness(index, energy);
+    } else {
+        set_fitness(
+            index, member.fitness + (energy - member.fitness) / static_cast<float>(member.reports));
+    }
+}
+
+void Population::place(Member& member) {
+    fitness_is_current_ = false;
+    for (std::size_t i = 0; i < species_.size(); ++i) {
+        if (distance(*member.genome, *species_[i].representative, measure_, threshold_) <
+            threshold_) {
+            member.species = i;
+            return;
+        }
+    }
+    member.species = species_.size();
+    species_.push_back({member.genome});
+}
+
+void Population::speciate() {
+    species_.clear();
+    for (Member& member : members_) place(member);
+}
+
+void Population::refresh_fitness() {
+    if (fitness_is_current_) return;
+    fitness_is_current_ = true;
+    total_fitness_ = 0.0f;
+    for (std::size_t s = 0; s < species_.size(); ++s) {
+        float sum = 0.0f;
+        float size = 0.0f;
+        for (const Member& member : members_) {
+            if (member.species != s) continue;
+            sum += member.fitness;
+            size += 1.0f;
+        }
+        species_[s].fitness = sum / (size * size);
+        total_fitness_ += species_[s].fitness;
+    }
+}
+
+float Population::species_share(std::size_t member) {
+    refresh_fitness();
+    if (!(total_fitness_ > 0.0f)) return 0.0f;
+    return species_[members_[member].species].fitness / total_fitness_;
+}
+
+std::size_t Population::select_species(RandomStream& random) {
+    refresh_fitness();
+    if (!(total_fitness_ > 0.0f)) return random.below(static_cast<std::uint32_t>(species_.size()));
+    float left = static_cast<float>(random.uniform()) * total_fitness_;
+    for (std::size_t s = 0; s + 1 < species_.size(); ++s) {
+        left -= species_[s].fitness;
+        if (left < 0.0f) return s;
+    }
+    return species_.size() - 1;
+}
+
+std::size_t Population::select_parent(std::size_t species, RandomStream& random) const {
+    const auto is_member = [&](const Member& member) { return member.species == species; };
+    const auto size =
+        static_cast<std::uint32_t>(std::count_if(members_.begin(), members_.end(), is_member));
+    assert(size > 0);
+    const auto nth = [&](std::uint32_t n) {
+        std::size_t index = 0;
+        while (!is_member(members_[index]) || n-- > 0) ++index;
+        return index;
+    };
+    if (size == 1) return nth(0);
+    const std::uint32_t draw = random.below(size);
+    const std::uint32_t other = (draw + 1 + random.below(size - 1)) % size;
+    const std::size_t a = nth(draw);
+    const std::size_t b = nth(other);
+    return members_[b].fitness > members_[a].fitness ? b : a;
+}
+
+}  // namespace gene_clocks::neat

@@ -1,0 +1,44 @@
+#include "gene_clocks/neat/tabu_list.hpp"
+
+#include <algorithm>
+
+namespace gene_clocks::neat {
+
+void TabuList::add(std::shared_ptr<const Genome> genome) {
+    const auto listed = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+        return entry.genome->id == genome->id;
+    });
+    if (listed != entries_.end()) {
+        listed->receptions_left = lifetime_receptions_;
+    } else {
+        const GenomeId itself = genome->id;
+        entries_.push_back({std::move(genome), lifetime_receptions_, itself, true});
+    }
+}
+
+bool TabuList::is_similar(Entry& entry, const Genome& received) const {
+    if (entry.compared_with != received.id) {
+        entry.compared_with = received.id;
+        entry.was_similar = distance(received, *entry.genome, measure_, threshold_) < threshold_;
+    }
+    return entry.was_similar;
+}
+
+bool TabuList::approves(const Genome& received) {
+    bool approved = true;
+    bool any_expired = false;
+    for (Entry& entry : entries_) {
+        if (is_similar(entry, received)) {
+            approved = false;
+            entry.receptions_left = lifetime_receptions_;
+        } else if (--entry.receptions_left == 0) {
+            any_expired = true;
+        }
+    }
+    if (any_expired) {
+        std::erase_if(entries_, [](const Entry& entry) { return entry.receptions_left == 0; });
+    }
+    return approved;
+}
+
+}  // namespace gene_clocks::neat
