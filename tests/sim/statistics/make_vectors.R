@@ -1,0 +1,70 @@
+#!/usr/bin/env Rscript
+# Writes the test vectors beside this script:  Rscript make_vectors.R [FOLDER]
+# Samples are written with 17 significant digits, so that they read back as the same numbers.
+
+arguments <- commandArgs(trailingOnly = FALSE)
+script <- sub("^--file=", "", grep("^--file=", arguments, value = TRUE))
+folder <- commandArgs(trailingOnly = TRUE)
+folder <- if (length(folder) > 0) folder[1] else dirname(script)
+
+RNGkind("Mersenne-Twister", "Inversion", "Rejection")
+set.seed(20150711)
+
+digits <- function(x) paste(sprintf("%.17g", x), collapse = " ")
+
+pairs <- list(
+  one_each = list(x = 1, y = 2),
+  one_against_five = list(x = 2.5, y = c(1, 2, 3, 4, 5)),
+  complete_separation = list(x = 1:7 / 8, y = 10:15 / 8),
+  small = list(x = rnorm(4), y = rnorm(6)),
+  small_shifted = list(x = rnorm(9, 1), y = rnorm(8)),
+  middle = list(x = rexp(23), y = rexp(31, 1.5)),
+  reference_size = list(x = rnorm(30, 160, 19), y = rnorm(30, 158, 19)),
+  largest_exact = list(x = rnorm(49), y = rnorm(49, 0.3)),
+  largest_exact_far_apart = list(x = rnorm(49), y = rnorm(49, 3)),
+  first_normal_x = list(x = rnorm(50), y = rnorm(49, 0.3)),
+  first_normal_y = list(x = rnorm(3), y = rnorm(50, 0.3)),
+  paper_size = list(x = rnorm(64, 160, 19), y = rnorm(64, 155, 19)),
+  paper_size_far_apart = list(x = rnorm(64, 160, 19), y = rnorm(64, 250, 19)),
+  large = list(x = rlnorm(256), y = rlnorm(300, 0.1)),
+  one_tie_across = list(x = c(1, 2, 3), y = c(3, 4, 5)),
+  one_tie_within = list(x = c(1, 1, 3), y = c(2, 4, 5, 6)),
+  few_levels = list(x = sample(1:4, 40, TRUE), y = sample(2:5, 35, TRUE)),
+  reached_times = list(x = 100 * sample(20:80, 64, TRUE), y = 100 * sample(25:90, 64, TRUE)),
+  never_reached = list(x = c(rep(40000, 60), 31000, 32000, 33000, 39900),
+                       y = c(rep(40000, 62), 30000, 35000)),
+  same_sample = local({ s <- rnorm(64); list(x = s, y = s) }),
+  midpoint = list(x = c(1, 4), y = c(2, 3))
+)
+
+mann_whitney <- do.call(rbind, lapply(names(pairs), function(name) {
+  x <- pairs[[name]]$x
+  y <- pairs[[name]]$y
+  test <- suppressWarnings(wilcox.test(x, y))
+  a <- mean(outer(x, y, function(p, q) (p > q) + 0.5 * (p == q)))
+  data.frame(
+    case = name, x = digits(x), y = digits(y), u = sprintf("%.17g", test$statistic),
+    p_value = sprintf("%.17g", test$p.value), a = sprintf("%.17g", a),
+    exact = as.integer(grepl("exact", test$method))
+  )
+}))
+
+samples <- list(
+  one = 3.25, two = c(7, -1), equal = rep(0.1, 6), odd = rnorm(31), even = rnorm(64, 160, 19),
+  ties = sample(1:5, 20, TRUE), outliers = c(rnorm(12), 40, -35)
+)
+probabilities <- c(0, 0.025, 0.1, 0.25, 1 / 3, 0.5, 0.75, 0.9, 0.975, 1)
+
+quantiles <- do.call(rbind, lapply(names(samples), function(name) {
+  x <- samples[[name]]
+  data.frame(
+    case = name, sample = digits(x), probability = sprintf("%.17g", probabilities),
+    quantile = sprintf("%.17g", quantile(x, probabilities, type = 7, names = FALSE))
+  )
+}))
+
+save <- function(frame, name) {
+  write.csv(frame, file.path(folder, name), row.names = FALSE, quote = FALSE)
+}
+save(mann_whitney, "mann_whitney.csv")
+save(quantiles, "quantiles.csv")
