@@ -27,29 +27,31 @@ enum class NavigationEnergy : std::uint8_t {
 struct WorldSettings {
     std::string arena = "gecco15";  ///< a built-in arena's name or the path of a TOML file
     std::int64_t robots = 100;
-    std::int64_t items = 75;               ///< collection only
-    double robot_radius_px = 2.5;          ///< half the diagonal of the robot's diamond
-    double sensor_range_px = 30.0;         ///< of the eight proximity rays, from the robot's edge
-    double translation_px = 2.0;           ///< largest translation in one cycle
-    double rotation_deg = 30.0;            ///< largest rotation in one cycle
+    std::int64_t items = 75;        ///< collection only
+    double robot_radius_px = 2.5;   ///< half the diagonal of the robot's diamond
+    double sensor_range_px = 30.0;  ///< of the eight proximity rays, from the robot's edge
+    double translation_px = 2.0;    ///< largest translation in one cycle
+    double acceleration_px = 2.0;   ///< largest change of translation from cycle to cycle
+    double rotation_deg = 30.0;     ///< largest rotation in one cycle
     Actuation actuation = Actuation::translation_rotation;
     double item_radius_px = 6.0;           ///< of the body that rays and robots meet
     double item_reach_px = 10.0;           ///< picked up when the robot's centre is this near
     std::int64_t item_absence_cycles = 2;  ///< until a picked-up item reappears elsewhere
-    double item_slip = 0.0;  ///< share of wall readings that pass for items (a slip of the reference)
+    double item_slip =
+        0.0;  ///< share of wall readings that pass for items (a slip of the reference)
 };
 
 /// Radio: a robot is heard by those that its rays see.
 struct RadioSettings {
-    double range_px = 30.0;          ///< beyond the robot's edge; at most the sensor range
-    double loss = 0.0;               ///< probability that one reception fails
-    std::int64_t delay_cycles = 0;   ///< between sending and reception
+    double range_px = 30.0;         ///< beyond the robot's edge; at most the sensor range
+    double loss = 0.0;              ///< probability that one reception fails
+    std::int64_t delay_cycles = 0;  ///< between sending and reception
 };
 
 struct EnergySettings {
     NavigationEnergy navigation = NavigationEnergy::reference;
-    double item_gain = 10.0;   ///< per item (Equation 3)
-    double decay = 0.1;        ///< per cycle, collection (Equation 3)
+    double item_gain = 10.0;  ///< per item (Equation 3)
+    double decay = 0.1;       ///< per cycle, collection (Equation 3)
 };
 
 /// Clocks of the timestamp source: local time = offset + (1 + drift) · cycle.

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "gene_clocks/sim/arena.hpp"
@@ -13,16 +14,17 @@ namespace gene_clocks::sim {
 /// What the paper measures every 100 cycles (section 4.1); means over all robots.
 struct Sample {
     std::int64_t cycle{};
-    double swarm_fitness{};   ///< F_s
-    double species{};         ///< species in the local population
-    double added_elements{};  ///< neurons and connections beyond the initial ones, disabled included
+    double swarm_fitness{};  ///< F_s
+    double species{};        ///< species in the local population
+    double
+        added_elements{};  ///< neurons and connections beyond the initial ones, disabled included
     double controller_size{};  ///< neurons and connections of the active genome
 };
 
 /// Counts of what happened in a run.
 struct RunCounters {
     std::uint64_t births{};
-    std::uint64_t matings{};   ///< births with two different parents
+    std::uint64_t matings{};  ///< births with two different parents
     std::uint64_t mutations{};
     std::uint64_t genes_created{};
     std::uint64_t messages_sent{};

@@ -1,0 +1,294 @@
+#include "gene_clocks/sim/simulation.hpp"
+
+#include <algorithm>
+#include <ctime>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+
+#include "gene_clocks/neat/agent.hpp"
+#include "gene_clocks/neat/gene_clock_source.hpp"
+#include "gene_clocks/neat/timestamp_source.hpp"
+#include "radio.hpp"
+#include "task.hpp"
+#include "trajectory_hash.hpp"
+#include "world.hpp"
+
+namespace gene_clocks::sim {
+namespace {
+
+/// Streams of random numbers that are not a robot's own.
+enum class Stream : std::uint64_t {
+    placement = 1,
+    order = 2,
+    radio = 3,
+    clocks = 4,
+    robots = 1000
+};
+
+neat::RandomStream make_stream(std::uint64_t seed, Stream stream, std::uint64_t offset = 0) {
+    return {seed, static_cast<std::uint64_t>(stream) + offset};
+}
+
+double thread_cpu_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// What a robot's controller is fed with: readings, energy and bias.
+struct InputLayout {
+    explicit InputLayout(Task task)
+        : item(task == Task::collection ? ray_count : 0), energy(ray_count + item) {}
+    std::size_t item;    // first item reading; 0 where there is none
+    std::size_t energy;  // energy over its maximum; the bias follows
+    std::size_t count() const { return energy + 2; }
+};
+constexpr std::size_t output_count = 2;
+constexpr std::size_t input_stride = 20;  // floats between two robots' inputs; at least 18
+
+std::unique_ptr<neat::InnovationSource> make_source(const Settings& settings, RobotId robot,
+                                                    std::uint64_t genesis_count,
+                                                    neat::RandomStream& random) {
+    switch (settings.source) {
+        case Source::gene_clock:
+            return std::make_unique<neat::GeneClockSource>(robot, genesis_count);
+        case Source::timestamp: {
+            const double offset = random.uniform(-1.0, 1.0) * settings.timestamp.offset_cycles;
+            const double drift = random.uniform(-1.0, 1.0) * settings.timestamp.drift_ppm * 1e-6;
+            return std::make_unique<neat::TimestampSource>(robot, genesis_count,
+                                                           neat::LocalTime{offset, drift});
+        }
+    }
+    throw std::invalid_argument("unknown innovation source");
+}
+
+/// One run. Every cycle goes through the same phases, each of which is one function.
+class Simulation {
+public:
+    Simulation(const Settings& settings, const Arena& arena, std::uint64_t seed);
+
+    void run_cycle(std::int64_t cycle);
+    RunResult take_result();
+
+private:
+    void log_sample(std::int64_t cycle);
+    void pick_up_items();
+    void shuffle_order();
+    void exchange_messages();
+    void broadcast(std::uint32_t sender);
+    void receive(std::uint32_t receiver, const neat::Message& message);
+    void run_controllers();
+    void spend_energy();
+    void replace_depleted(std::int64_t cycle);
+
+    const Settings settings_;
+    const InputLayout layout_;
+    neat::RandomStream placement_random_;
+    neat::RandomStream order_random_;
+    neat::RandomStream radio_random_;
+    World world_;
+    Radio radio_;
+    std::vector<neat::Agent> agents_;  // refer to settings_
+    std::vector<std::uint32_t> order_;
+
+    // One entry for each robot.
+    std::vector<float> inputs_;  // input_stride for each
+    std::vector<float> output_0_, output_1_;
+    std::vector<float> translation_, rotation_;
+    std::vector<float> nearest_obstacle_;
+    std::vector<float> energy_change_;
+
+    TrajectoryHash hash_;
+    RunResult result_;
+};
+
+Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64_t seed)
+    : settings_(settings),
+      layout_(settings.task),
+      placement_random_(make_stream(seed, Stream::placement)),
+      order_random_(make_stream(seed, Stream::order)),
+      radio_random_(make_stream(seed, Stream::radio)),
+      world_(settings_,
+             std::make_shared<ArenaMap>(
+                 arena, settings.world.sensor_range_px + settings.world.robot_radius_px,
+                 settings.world.robot_radius_px),
+             placement_random_),
+      radio_(settings.radio) {
+    const std::size_t robots = world_.robots();
+    const auto topology = neat::make_initial_topology(layout_.count(), output_count);
+    const auto genesis_count = neat::genesis_mark_count(layout_.count(), output_count);
+    neat::RandomStream clock_random = make_stream(seed, Stream::clocks);
+    agents_.reserve(robots);
+    for (std::size_t i = 0; i < robots; ++i) {
+        const RobotId robot{static_cast<std::uint32_t>(i + 1)};
+        agents_.emplace_back(robot, settings_.odneat, topology,
+                             make_source(settings_, robot, genesis_count, clock_random),
+                             make_stream(seed, Stream::robots, i));
+    }
+    order_.resize(robots);
+    std::iota(order_.begin(), order_.end(), 0u);
+    for (auto* values :
+         {&output_0_, &output_1_, &translation_, &rotation_, &nearest_obstacle_, &energy_change_}) {
+        values->assign(robots, 0.0f);
+    }
+    inputs_.assign(robots * input_stride, 1.0f);
+    if (settings_.run.sample_period_cycles > 0) {
+        result_.samples.reserve(static_cast<std::size_t>(
+            settings_.run.cycles / settings_.run.sample_period_cycles + 1));
+    }
+}
+
+void Simulation::run_cycle(std::int64_t cycle) {
+    world_.replace_items(placement_random_);
+    if (cycle % settings_.run.sample_period_cycles == 0) log_sample(cycle);
+    pick_up_items();
+    shuffle_order();
+    exchange_messages();
+    run_controllers();
+    spend_energy();
+    replace_depleted(cycle);
+    result_.counters.collisions += world_.move(translation_, rotation_, order_);
+    world_.sense();
+    result_.robot_steps += agents_.size();
+}
+
+void Simulation::log_sample(std::int64_t cycle) {
+    Sample sample;
+    sample.cycle = cycle;
+    for (const neat::Agent& agent : agents_) {
+        const neat::Topology& topology = *agent.active().topology;
+        sample.swarm_fitness += agent.fitness();
+        sample.species += static_cast<double>(agent.population().species_count());
+        sample.controller_size += static_cast<double>(topology.size());
+        sample.added_elements += static_cast<double>(topology.size() - topology.initial_size());
+        hash_.add(agent.fitness());
+    }
+    hash_.add(world_.x_px());
+    hash_.add(world_.y_px());
+    const auto robots = static_cast<double>(agents_.size());
+    for (double* mean : {&sample.swarm_fitness, &sample.species, &sample.controller_size,
+                         &sample.added_elements}) {
+        *mean /= robots;
+    }
+    result_.samples.push_back(sample);
+}
+
+void Simulation::pick_up_items() {
+    if (settings_.task != Task::collection) return;
+    for (std::size_t i = 0; i < agents_.size(); ++i) {
+        if (world_.pick_up(i)) agents_[i].gain(static_cast<float>(settings_.energy.item_gain));
+    }
+}
+
+/// Fisher and Yates.
+void Simulation::shuffle_order() {
+    for (std::size_t i = order_.size() - 1; i > 0; --i) {
+        std::swap(order_[i], order_[order_random_.below(static_cast<std::uint32_t>(i + 1))]);
+    }
+}
+
+void Simulation::exchange_messages() {
+    if (settings_.radio.delay_cycles > 0) {
+        radio_.deliver_delayed([this](std::uint32_t receiver, const neat::Message& message) {
+            receive(receiver, message);
+        });
+    }
+    for (const std::uint32_t sender : order_) {
+        if (world_.senses(sender).hears_robot) broadcast(sender);
+    }
+}
+
+void Simulation::broadcast(std::uint32_t sender) {
+    neat::Agent& agent = agents_[sender];
+    if (!agent.random().chance(agent.broadcast_probability())) return;
+    ++result_.counters.messages_sent;
+    const neat::Message message = agent.message();
+    const auto& hit = world_.senses(sender).robot;
+    for (std::size_t ray = 0; ray < ray_count; ++ray) {
+        const bool heard_before =
+            std::find(hit.begin(), hit.begin() + static_cast<std::ptrdiff_t>(ray), hit[ray]) !=
+            hit.begin() + static_cast<std::ptrdiff_t>(ray);
+        if (hit[ray] < 0 || heard_before) continue;
+        radio_.send(message, static_cast<std::uint32_t>(hit[ray]), radio_random_,
+                    [this](std::uint32_t receiver, const neat::Message& received) {
+                        receive(receiver, received);
+                    });
+    }
+}
+
+void Simulation::receive(std::uint32_t receiver, const neat::Message& message) {
+    ++result_.counters.messages_received;
+    if (agents_[receiver].receive(message) == neat::Reception::accepted) {
+        ++result_.counters.genomes_accepted;
+    }
+}
+
+void Simulation::run_controllers() {
+    const float per_energy = 1.0f / static_cast<float>(settings_.odneat.energy_maximum);
+    for (std::size_t i = 0; i < agents_.size(); ++i) {
+        const Senses& senses = world_.senses(i);
+        float* const inputs = inputs_.data() + i * input_stride;
+        std::copy(senses.obstacle.begin(), senses.obstacle.end(), inputs);
+        if (layout_.item > 0)
+            std::copy(senses.item.begin(), senses.item.end(), inputs + layout_.item);
+        inputs[layout_.energy] = agents_[i].energy() * per_energy;
+        const auto outputs = agents_[i].control({inputs, layout_.count()});
+        output_0_[i] = outputs[0];
+        output_1_[i] = outputs[1];
+        nearest_obstacle_[i] = senses.nearest_obstacle;
+    }
+}
+
+void Simulation::spend_energy() {
+    const Commands commands{agents_.size(), output_0_.data(), output_1_.data(), translation_.data(),
+                            rotation_.data()};
+    interpret_outputs(settings_.world.actuation, commands);
+    if (settings_.task == Task::navigation) {
+        navigation_energy(settings_.energy.navigation, commands, nearest_obstacle_.data(),
+                          energy_change_.data());
+    } else {
+        std::fill(energy_change_.begin(), energy_change_.end(),
+                  -static_cast<float>(settings_.energy.decay));
+    }
+    for (std::size_t i = 0; i < agents_.size(); ++i) agents_[i].spend(energy_change_[i]);
+}
+
+void Simulation::replace_depleted(std::int64_t cycle) {
+    for (neat::Agent& agent : agents_) {
+        if (!agent.is_depleted()) continue;
+        const neat::Birth birth = agent.replace(static_cast<double>(cycle));
+        ++result_.counters.births;
+        if (birth.mated) ++result_.counters.matings;
+        if (birth.mutation != neat::Mutation::none) ++result_.counters.mutations;
+        if (birth.mutation == neat::Mutation::add_neuron) result_.counters.genes_created += 3;
+        if (birth.mutation == neat::Mutation::add_connection) ++result_.counters.genes_created;
+    }
+}
+
+RunResult Simulation::take_result() {
+    hash_.add(world_.x_px());
+    hash_.add(world_.y_px());
+    result_.trajectory_hash = hash_.digest();
+    return std::move(result_);
+}
+
+}  // namespace
+
+std::optional<RunResult> simulate(const Settings& settings, const Arena& arena, std::uint64_t seed,
+                                  RunControl* control) {
+    const double start = thread_cpu_seconds();
+    Simulation simulation(settings, arena, seed);
+    for (std::int64_t cycle = 0; cycle < settings.run.cycles; ++cycle) {
+        if (control != nullptr) {
+            if (control->stop.load(std::memory_order_relaxed)) return std::nullopt;
+            control->cycles_done.store(cycle, std::memory_order_relaxed);
+        }
+        simulation.run_cycle(cycle);
+    }
+    RunResult result = simulation.take_result();
+    result.cpu_seconds = thread_cpu_seconds() - start;
+    return result;
+}
+
+}  // namespace gene_clocks::sim
