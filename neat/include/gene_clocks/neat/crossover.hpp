@@ -15,9 +15,12 @@ struct Parent {
 /// Recombines two genomes (paper, section 3.2): matching genes from either parent at random,
 /// disjoint and excess ones from the fitter (tie: the smaller, then the second).
 ///
-/// The child's marks are therefore those of the fitter parent, less the connections that would
-/// repeat, or reverse a feed-forward one, of those already taken. A matching gene disabled in one
-/// parent is disabled with disable_probability; disabled in both it stays so.
+/// The child's marks are therefore those of the fitter parent, less the connections that reverse a
+/// feed-forward one of a smaller mark. (None can repeat another, since a genome joins two neurons
+/// only once in each direction.) A matching gene disabled in one parent is disabled with
+/// disable_probability; disabled in both it stays so.
+///
+/// Precondition: both genomes are valid and descend from the same initial topology.
 Genome crossover(GenomeId id, Parent first, Parent second, const OdneatSettings& settings,
                  RandomStream& random);
 
