@@ -16,34 +16,35 @@ struct WeightTerm {
     float count = 0.0f;  // of genes enabled in both
 };
 
-/// Genes [begin, end) of both genomes match one to one. Eight partial sums in a fixed order, so
-/// that the compiler may use vector registers of any width and the result stays the same.
-WeightTerm weight_term(const Genome& first, const Genome& second, std::size_t begin,
-                       std::size_t end) {
+/// Adds genes [begin, end) of both genomes, which match one to one. Stops after a block of eight
+/// once the sum is above `enough`. Eight partial sums, added in a fixed order, so that the compiler
+/// may use vector registers of any width and the result stays the same.
+void add_matching(const Genome& first, const Genome& second, std::size_t begin, std::size_t end,
+                  float enough, WeightTerm& term) {
     constexpr std::size_t lanes = 8;
-    std::array<float, lanes> sums{};
-    std::array<float, lanes> counts{};
     const float* weights_a = first.weights.data();
     const float* weights_b = second.weights.data();
     const float* enabled_a = first.enabled.data();
     const float* enabled_b = second.enabled.data();
-    std::size_t i = begin;
-    for (; i + lanes <= end; i += lanes) {
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            const float both = enabled_a[i + lane] * enabled_b[i + lane];
-            sums[lane] += std::abs(weights_a[i + lane] - weights_b[i + lane]) * both;
-            counts[lane] += both;
-        }
-    }
-    for (std::size_t lane = 0; i < end; ++i, ++lane) {
-        const float both = enabled_a[i] * enabled_b[i];
-        sums[lane] += std::abs(weights_a[i] - weights_b[i]) * both;
-        counts[lane] += both;
-    }
     const auto total = [](const std::array<float, lanes>& x) {
         return ((x[0] + x[4]) + (x[1] + x[5])) + ((x[2] + x[6]) + (x[3] + x[7]));
     };
-    return {total(sums), total(counts)};
+    for (std::size_t i = begin; i < end && !(term.sum >= enough); i += lanes) {
+        std::array<float, lanes> differences{};
+        std::array<float, lanes> both{};
+        const std::size_t size = std::min(lanes, end - i);
+        const auto compare = [&](std::size_t lane) {
+            both[lane] = enabled_a[i + lane] * enabled_b[i + lane];
+            differences[lane] = std::abs(weights_a[i + lane] - weights_b[i + lane]) * both[lane];
+        };
+        if (size == lanes) {
+            for (std::size_t lane = 0; lane < lanes; ++lane) compare(lane);
+        } else {
+            for (std::size_t lane = 0; lane < size; ++lane) compare(lane);
+        }
+        term.sum += total(differences);
+        term.count += total(both);
+    }
 }
 
 /// Length of the common beginning of two lists of marks.
@@ -73,15 +74,17 @@ float distance(const Genome& first, const Genome& second, const DistanceMeasure&
     // As a sum, their weight term alone already decides most comparisons with a threshold.
     const std::size_t initial =
         std::min(topology_a.initial_connections, topology_b.initial_connections);
-    WeightTerm weight = weight_term(first, second, 0, initial);
-    if (is_sum && measure.c_weight * weight.sum >= limit) return measure.c_weight * weight.sum;
+    const float enough = is_sum && measure.c_weight > 0.0f ? limit / measure.c_weight
+                                                           : std::numeric_limits<float>::infinity();
+    WeightTerm weight;
+    add_matching(first, second, 0, initial, enough, weight);
+    if (weight.sum >= enough) return limit;
 
     const bool same_topology = &topology_a == &topology_b;
     const std::size_t prefix =
         same_topology ? first.connections() : common_prefix(topology_a, topology_b, initial);
-    const WeightTerm rest = weight_term(first, second, initial, prefix);
-    weight.sum += rest.sum;
-    weight.count += rest.count;
+    add_matching(first, second, initial, prefix, enough, weight);
+    if (weight.sum >= enough) return limit;
 
     float disjoint = 0.0f;
     float excess = 0.0f;

@@ -14,7 +14,7 @@ Population::Population(const OdneatSettings& settings)
 
 std::optional<std::size_t> Population::find(GenomeId id) const {
     for (std::size_t i = 0; i < members_.size(); ++i) {
-        if (members_[i].genome->id == id) return i;
+        if (members_[i].id == id) return i;
     }
     return std::nullopt;
 }
@@ -22,7 +22,7 @@ std::optional<std::size_t> Population::find(GenomeId id) const {
 std::optional<std::size_t> Population::worst(std::optional<GenomeId> except) const {
     std::optional<std::size_t> worst;
     for (std::size_t i = 0; i < members_.size(); ++i) {
-        if (except && members_[i].genome->id == *except) continue;
+        if (except && members_[i].id == *except) continue;
         if (!worst || members_[i].fitness < members_[*worst].fitness) worst = i;
     }
     return worst;
@@ -30,7 +30,8 @@ std::optional<std::size_t> Population::worst(std::optional<GenomeId> except) con
 
 void Population::add(std::shared_ptr<const Genome> genome, float fitness) {
     assert(!is_full() && !find(genome->id));
-    members_.push_back({std::move(genome), fitness, 1, 0});
+    const GenomeId id = genome->id;
+    members_.push_back({std::move(genome), id, fitness, 1, 0});
     place(members_.back());
 }
 

@@ -11,14 +11,9 @@ namespace {
 // The frame's walls reach this far out, so that nothing sees or slips past them.
 constexpr double outside_px = 1e4;
 
+// One cell more than the extent needs, for places on its very edge.
 std::size_t cell_count(float extent_px, float cell_px) {
-    return static_cast<std::size_t>(std::ceil(extent_px / cell_px));
-}
-
-std::size_t cell_index(float place_px, float cell_px, std::size_t count) {
-    const float cell = place_px / cell_px;
-    const float last = static_cast<float>(count - 1);
-    return static_cast<std::size_t>(std::min(std::max(cell, 0.0f), last));
+    return static_cast<std::size_t>(extent_px / cell_px) + 1;
 }
 
 struct Point {
@@ -50,7 +45,8 @@ ArenaMap::ArenaMap(const Arena& arena, double reach_px, double radius_px)
       columns_(cell_count(width_px_, cell_px)),
       rows_(cell_count(height_px_, cell_px)),
       touch_columns_(cell_count(width_px_, touch_cell_px)),
-      touch_rows_(cell_count(height_px_, touch_cell_px)) {
+      touch_rows_(cell_count(height_px_, touch_cell_px)),
+      orientations_(1, WallOrientation{1.0f, 1.0f}) {
     for (const ThickSegment& wall : arena.walls) add_wall(wall);
     // The frame, as four walls that reach from its inner edge far outside.
     const double left = arena.frame_left_px - outside_px / 2;
@@ -61,8 +57,9 @@ ArenaMap::ArenaMap(const Arena& arena, double reach_px, double radius_px)
     add_wall({right, -outside_px, right, outside_px, outside_px});
     add_wall({-outside_px, top, outside_px, top, outside_px});
     add_wall({-outside_px, bottom, outside_px, bottom, outside_px});
-    std::stable_sort(walls_.begin(), walls_.end(),
-                     [](const Wall& a, const Wall& b) { return a.orientation < b.orientation; });
+    std::stable_sort(walls_.begin(), walls_.end(), [](const WallBox& a, const WallBox& b) {
+        return a.orientation < b.orientation;
+    });
     list_visible_walls(static_cast<float>(reach_px));
     mark_touchable_cells();
 }
@@ -98,14 +95,12 @@ void ArenaMap::add_wall(const ThickSegment& wall) {
     auto half_along = static_cast<float>(length / 2 * to_axes);
     auto half_across = static_cast<float>(wall.thickness_px / 2 * to_axes);
     if (quarter_turned) std::swap(half_along, half_across);
-    WallBox box{centre.along - half_along,
-                centre.along + half_along,
-                centre.across - half_across,
-                centre.across + half_across,
-                0,
-                0,
-                0,
-                0};
+    WallBox box;
+    box.orientation = orientation;
+    box.along_min = centre.along - half_along;
+    box.along_max = centre.along + half_along;
+    box.across_min = centre.across - half_across;
+    box.across_max = centre.across + half_across;
 
     // Corners back in (x, y), then in the diamonds' coordinates.
     const float square = axes.ax * axes.ax + axes.ay * axes.ay;
@@ -121,7 +116,7 @@ void ArenaMap::add_wall(const ThickSegment& wall) {
             box.v_max = std::max(box.v_max, y - x);
         }
     }
-    walls_.push_back({orientation, box});
+    walls_.push_back(box);
 }
 
 void ArenaMap::list_visible_walls(float reach_px) {
@@ -131,21 +126,16 @@ void ArenaMap::list_visible_walls(float reach_px) {
         for (std::size_t column = 0; column < columns_; ++column) {
             const float x = (static_cast<float>(column) + 0.5f) * cell_px;
             const float y = (static_cast<float>(row) + 0.5f) * cell_px;
-            cell_begin_.push_back(static_cast<std::uint32_t>(segments_.size()));
-            for (const Wall& wall : walls_) {
-                const float distance = distance_px(orientations_[wall.orientation], wall.box, x, y);
+            cell_begin_.push_back(static_cast<std::uint32_t>(visible_.size()));
+            for (std::size_t i = 0; i < walls_.size(); ++i) {
+                const float distance =
+                    distance_px(orientations_[walls_[i].orientation], walls_[i], x, y);
                 if (distance > reach_px + half_diagonal) continue;
-                const auto index = static_cast<std::uint32_t>(boxes_.size());
-                const bool first_of_cell = segments_.size() == cell_begin_.back();
-                if (first_of_cell || segments_.back().orientation != wall.orientation) {
-                    segments_.push_back({wall.orientation, index, index});
-                }
-                boxes_.push_back(wall.box);
-                ++segments_.back().end;
+                visible_.push_back(static_cast<std::uint16_t>(i));
             }
         }
     }
-    cell_begin_.push_back(static_cast<std::uint32_t>(segments_.size()));
+    cell_begin_.push_back(static_cast<std::uint32_t>(visible_.size()));
 }
 
 void ArenaMap::mark_touchable_cells() {
@@ -155,8 +145,8 @@ void ArenaMap::mark_touchable_cells() {
         for (std::size_t column = 0; column < touch_columns_; ++column) {
             const float x = (static_cast<float>(column) + 0.5f) * touch_cell_px;
             const float y = (static_cast<float>(row) + 0.5f) * touch_cell_px;
-            const bool near = std::any_of(walls_.begin(), walls_.end(), [&](const Wall& wall) {
-                return distance_px(orientations_[wall.orientation], wall.box, x, y) <=
+            const bool near = std::any_of(walls_.begin(), walls_.end(), [&](const WallBox& wall) {
+                return distance_px(orientations_[wall.orientation], wall, x, y) <=
                        radius_px_ + half_diagonal;
             });
             may_touch_[row * touch_columns_ + column] = near ? 1 : 0;
@@ -164,39 +154,28 @@ void ArenaMap::mark_touchable_cells() {
     }
 }
 
-std::size_t ArenaMap::cell_at(float x_px, float y_px) const {
-    return cell_index(y_px, cell_px, rows_) * columns_ + cell_index(x_px, cell_px, columns_);
-}
-
-std::size_t ArenaMap::touch_cell_at(float x_px, float y_px) const {
-    return cell_index(y_px, touch_cell_px, touch_rows_) * touch_columns_ +
-           cell_index(x_px, touch_cell_px, touch_columns_);
-}
-
 /// Separating axes of a box and a diamond: those of the box, then those of the diamond.
 bool ArenaMap::diamond_meets_wall(float x_px, float y_px) const {
     const float u = x_px + y_px;
     const float v = y_px - x_px;
-    for (const Segment& segment : visible_walls(x_px, y_px)) {
-        const WallOrientation& axes = orientations_[segment.orientation];
+    for (const std::uint16_t i : visible_walls(x_px, y_px)) {
+        const WallBox& box = walls_[i];
+        const WallOrientation& axes = orientations_[box.orientation];
         const Point p = rotate(axes, x_px, y_px);
         const float half = radius_px_ * std::max(std::abs(axes.ax), std::abs(axes.ay));
-        for (std::uint32_t i = segment.begin; i < segment.end; ++i) {
-            const WallBox& box = boxes_[i];
-            if (p.along + half > box.along_min && p.along - half < box.along_max &&
-                p.across + half > box.across_min && p.across - half < box.across_max &&
-                u + radius_px_ > box.u_min && u - radius_px_ < box.u_max &&
-                v + radius_px_ > box.v_min && v - radius_px_ < box.v_max) {
-                return true;
-            }
+        if (p.along + half > box.along_min && p.along - half < box.along_max &&
+            p.across + half > box.across_min && p.across - half < box.across_max &&
+            u + radius_px_ > box.u_min && u - radius_px_ < box.u_max &&
+            v + radius_px_ > box.v_min && v - radius_px_ < box.v_max) {
+            return true;
         }
     }
     return false;
 }
 
 bool ArenaMap::disc_touches_wall(float x_px, float y_px, float radius_px) const {
-    return std::any_of(walls_.begin(), walls_.end(), [&](const Wall& wall) {
-        return distance_px(orientations_[wall.orientation], wall.box, x_px, y_px) < radius_px;
+    return std::any_of(walls_.begin(), walls_.end(), [&](const WallBox& wall) {
+        return distance_px(orientations_[wall.orientation], wall, x_px, y_px) < radius_px;
     });
 }
 

@@ -4,24 +4,23 @@
 
 namespace gene_clocks::sim {
 
-NeighbourIndex::NeighbourIndex(std::size_t robots, float width_px, float height_px, float reach_px)
-    : reach_px_(reach_px),
-      columns_(static_cast<std::uint32_t>(width_px / reach_px) + 3),
-      rows_(static_cast<std::uint32_t>(height_px / reach_px) + 3),
+NeighbourIndex::NeighbourIndex(std::size_t robots, float width_px, float height_px, float reach_px,
+                               float speed_px)
+    : list_reach_px_(reach_px + 2.0f * speed_px * static_cast<float>(lifetime_cycles)),
+      columns_(static_cast<std::uint32_t>(width_px / list_reach_px_) + 3),
+      rows_(static_cast<std::uint32_t>(height_px / list_reach_px_) + 3),
       cell_of_(robots),
       cell_begin_(columns_ * rows_ + 1),
       sorted_(robots),
       sorted_x_px_(robots),
       sorted_y_px_(robots),
-      begin_(robots),
-      end_(robots) {}
+      begin_(robots + 1) {}
 
 void NeighbourIndex::sort_into_cells(std::span<const float> x_px, std::span<const float> y_px) {
-    const float per_px = 1.0f / reach_px_;
+    const float per_px = 1.0f / list_reach_px_;
     std::fill(cell_begin_.begin(), cell_begin_.end(), 0u);
     const std::size_t robots = cell_of_.size();
     for (std::size_t i = 0; i < robots; ++i) {
-        // Positions lie within the arena: a robot that would leave it collides with the frame.
         const auto column = static_cast<std::uint32_t>(x_px[i] * per_px) + 1;
         const auto row = static_cast<std::uint32_t>(y_px[i] * per_px) + 1;
         cell_of_[i] = row * columns_ + column;
@@ -41,8 +40,9 @@ void NeighbourIndex::sort_into_cells(std::span<const float> x_px, std::span<cons
 }
 
 void NeighbourIndex::rebuild(std::span<const float> x_px, std::span<const float> y_px) {
+    cycles_left_ = lifetime_cycles;
     sort_into_cells(x_px, y_px);
-    const float reach_square = reach_px_ * reach_px_;
+    const float reach_square = list_reach_px_ * list_reach_px_;
     const std::size_t robots = cell_of_.size();
     std::uint32_t used = 0;
     for (std::size_t i = 0; i < robots; ++i) {
@@ -60,8 +60,8 @@ void NeighbourIndex::rebuild(std::span<const float> x_px, std::span<const float>
                 used += dx * dx + dy * dy < reach_square && sorted_[k] != i ? 1u : 0u;
             }
         }
-        end_[i] = used;
     }
+    begin_[robots] = used;
 }
 
 }  // namespace gene_clocks::sim

@@ -85,6 +85,8 @@ void sense_all(World& world) {
     const float item_square = world.item_radius_px_ * world.item_radius_px_;
     const float item_reach_square = world.item_reach_px_ * world.item_reach_px_;
     const auto slip_share = static_cast<float>(world.settings_.item_slip);
+    const float near_square = (world.range_px_ + 2 * radius) * (world.range_px_ + 2 * radius);
+    std::uint32_t* const near_list = world.near_.data();
     const ArenaMap& map = *world.map_;
     for (std::size_t i = 0; i < world.robots(); ++i) {
         const float x = world.x_px_[i];
@@ -94,34 +96,45 @@ void sense_all(World& world) {
         RayFan fan{cosine * ray_cosine - sine * ray_sine, sine * ray_cosine + cosine * ray_sine,
                    lanes(world.range_px_ + radius)};
 
+        const RayFan::Turned diamond_rays = fan.turn(1.0f, 1.0f);
         IntLanes wall_hit{};
-        for (const ArenaMap::Segment& segment : map.visible_walls(x, y)) {
-            const WallOrientation& axes = map.orientation(segment.orientation);
-            const RayFan::Turned rays = fan.turn(axes.ax, axes.ay);
-            const float along = x * axes.ax + y * axes.ay;
-            const float across = y * axes.ax - x * axes.ay;
-            for (std::uint32_t k = segment.begin; k < segment.end; ++k) {
-                const WallBox& box = map.box(k);
-                wall_hit |= fan.meet_box(rays, box.along_min - along, box.along_max - along,
-                                         box.across_min - across, box.across_max - across);
+        std::uint32_t orientation = diamond_orientation;
+        RayFan::Turned rays = diamond_rays;
+        float along = x + y;
+        float across = y - x;
+        for (const std::uint16_t k : map.visible_walls(x, y)) {
+            const WallBox& wall = map.wall(k);
+            if (wall.orientation != orientation) {
+                orientation = wall.orientation;
+                const WallOrientation& axes = map.orientation(orientation);
+                rays = fan.turn(axes.ax, axes.ay);
+                along = x * axes.ax + y * axes.ay;
+                across = y * axes.ax - x * axes.ay;
             }
+            wall_hit |= fan.meet_box(rays, wall.along_min - along, wall.along_max - along,
+                                     wall.across_min - across, wall.across_max - across);
         }
 
-        IntLanes who = IntLanes{} - 1;
-        const auto near = world.neighbours_.near(i);
-        if (!near.empty()) {
-            const RayFan::Turned rays = fan.turn(1.0f, 1.0f);
-            for (const std::uint32_t j : near) {
-                const float dx = world.x_px_[j] - x;
-                const float dy = world.y_px_[j] - y;
-                const float u = dx + dy;
-                const float v = dy - dx;
-                const IntLanes hit =
-                    fan.meet_box(rays, u - radius, u + radius, v - radius, v + radius);
-                who = hit ? IntLanes{} + static_cast<std::int32_t>(j) : who;
-            }
-            wall_hit &= who < 0;
+        // First those that are near enough, without a branch that nobody can predict.
+        std::size_t near = 0;
+        for (const std::uint32_t j : world.neighbours_.near(i)) {
+            const float dx = world.x_px_[j] - x;
+            const float dy = world.y_px_[j] - y;
+            near_list[near] = j;
+            near += dx * dx + dy * dy < near_square ? 1u : 0u;
         }
+        IntLanes who = IntLanes{} - 1;
+        for (std::size_t k = 0; k < near; ++k) {
+            const std::uint32_t j = near_list[k];
+            const float dx = world.x_px_[j] - x;
+            const float dy = world.y_px_[j] - y;
+            const float u = dx + dy;
+            const float v = dy - dx;
+            const IntLanes hit =
+                fan.meet_box(diamond_rays, u - radius, u + radius, v - radius, v + radius);
+            who = hit ? IntLanes{} + static_cast<std::int32_t>(j) : who;
+        }
+        wall_hit &= who < 0;
 
         Senses& senses = world.senses_[i];
         senses.reaches_item = false;
@@ -150,7 +163,7 @@ void sense_all(World& world) {
         senses.item = std::bit_cast<std::array<float, ray_count>>(item);
         senses.robot = std::bit_cast<std::array<std::int32_t, ray_count>>(who);
         senses.nearest_obstacle = smallest(obstacle);
-        senses.hears_robot = !near.empty() && any(who >= 0);
+        senses.hears_robot = near > 0 && any(who >= 0);
     }
 }
 

@@ -14,10 +14,9 @@ float square(float value) {
     return value * value;
 }
 
-/// How far apart two robots can be and still sense each other after both have moved.
+/// How far apart two robots can be and still sense each other.
 float neighbour_reach_px(const WorldSettings& world) {
-    return static_cast<float>(world.sensor_range_px + 2 * world.robot_radius_px +
-                              2 * world.translation_px);
+    return static_cast<float>(world.sensor_range_px + 2 * world.robot_radius_px);
 }
 
 /// How far an item's centre can be from a robot's and still matter to it.
@@ -39,7 +38,7 @@ World::World(const Settings& settings, std::shared_ptr<const ArenaMap> map,
       item_reach_px_(static_cast<float>(settings_.item_reach_px)),
       map_(std::move(map)),
       neighbours_(static_cast<std::size_t>(settings_.robots), map_->width_px(), map_->height_px(),
-                  neighbour_reach_px(settings_)),
+                  neighbour_reach_px(settings_), static_cast<float>(settings_.translation_px)),
       items_(has_items_ ? static_cast<std::size_t>(settings_.items) : 0, map_->width_px(),
              map_->height_px(), sim::item_reach_px(settings_)) {
     const auto robots = static_cast<std::size_t>(settings_.robots);
@@ -48,6 +47,7 @@ World::World(const Settings& settings, std::shared_ptr<const ArenaMap> map,
         values->assign(robots, 0.0f);
     }
     senses_.resize(robots);
+    near_.resize(robots);
     for (std::size_t item = 0; item < items_.size(); ++item) {
         if (!put_item(item, random))
             throw std::runtime_error("the arena has no free place for an item");
@@ -55,7 +55,7 @@ World::World(const Settings& settings, std::shared_ptr<const ArenaMap> map,
     place_robots(random);
     planned_x_px_ = x_px_;
     planned_y_px_ = y_px_;
-    neighbours_.rebuild(x_px_, y_px_);
+    neighbours_.update(x_px_, y_px_);
     sense();
 }
 
@@ -207,11 +207,10 @@ static void turn_and_plan(const Motion& motion) {
 }
 
 bool World::collides(std::size_t robot, float x, float y) const {
-    if (map_->robot_touches_wall(x, y)) return true;
+    bool hit = map_->robot_touches_wall(x, y);
     for (const std::uint32_t other : neighbours_.near(robot)) {
-        if (std::abs(x_px_[other] - x) + std::abs(y_px_[other] - y) < 2 * radius_px_) return true;
+        hit |= std::abs(x_px_[other] - x) + std::abs(y_px_[other] - y) < 2 * radius_px_;
     }
-    bool hit = false;
     if (has_items_) {
         items_.visit_near(x, y, [&](std::size_t item) {
             // Distance from the disc's centre to the diamond, a square in (u, v).
@@ -219,7 +218,7 @@ bool World::collides(std::size_t robot, float x, float y) const {
             const float dy = items_.y_px(item) - y;
             const float u = std::max(std::abs(dx + dy) - radius_px_, 0.0f);
             const float v = std::max(std::abs(dy - dx) - radius_px_, 0.0f);
-            hit = hit || u * u + v * v < 2 * square(item_radius_px_);
+            hit |= u * u + v * v < 2 * square(item_radius_px_);
         });
     }
     return hit;
@@ -233,7 +232,7 @@ std::uint64_t World::move(std::span<const float> translation, std::span<const fl
                    translation.data(), rotation.data(), x_px_.data(), y_px_.data(), cosine_.data(),
                    sine_.data(), translation_px_.data(), planned_x_px_.data(),
                    planned_y_px_.data()});
-    neighbours_.rebuild(x_px_, y_px_);
+    neighbours_.update(x_px_, y_px_);
     std::uint64_t collisions = 0;
     for (const std::uint32_t i : order) {
         if (collides(i, planned_x_px_[i], planned_y_px_[i])) {

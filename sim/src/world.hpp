@@ -87,6 +87,7 @@ private:
     std::vector<float> translation_px_;  // of the last cycle, 0 after a collision
     std::vector<float> planned_x_px_, planned_y_px_;
     std::vector<Senses> senses_;
+    std::vector<std::uint32_t> near_;  // room for sense_all
 
     friend void sense_all(World& world);
 };

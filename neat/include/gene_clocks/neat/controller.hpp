@@ -14,7 +14,7 @@ namespace gene_clocks::neat {
 /// 1 / (1 + exp(−slope·x)) of its weighted inputs; one without enabled inputs gives 0.
 class Controller {
 public:
-    /// Shapes: `inputs` (the bias included) and outputs are those of the genome's topology.
+    /// Shapes: inputs (the bias included) and outputs are those of the genome's topology.
     Controller(const Genome& genome, double activation_slope);
 
     /// One update. `inputs` holds one value for each input neuron, the bias included. Returns the
@@ -22,23 +22,30 @@ public:
     std::span<const float> update(std::span<const float> inputs);
 
 private:
+    // Neurons other than inputs are called active; outputs come first, then hidden ones. They are
+    // computed four at a time: a sum grows by one source neuron after the other, so that the order
+    // of its operations is the same on every processor.
     static constexpr Eigen::Index lanes = 4;
     using Lanes = Eigen::Array<float, lanes, 1>;
 
-    // Neurons other than inputs are called active; outputs come first, then hidden ones, padded
-    // to a multiple of `lanes`.
+    Eigen::Map<const Lanes, Eigen::Aligned16> weights_from(Eigen::Index source,
+                                                           Eigen::Index block) const {
+        return Eigen::Map<const Lanes, Eigen::Aligned16>(columns_.data() + source * padded_ +
+                                                         block);
+    }
+
     Eigen::Index inputs_;
     Eigen::Index outputs_;
     Eigen::Index active_;
-    Eigen::Index padded_;
+    Eigen::Index padded_;  // active_, up to a multiple of `lanes`
     float slope_;
-    // Column-major, padded_ × (inputs_ + active_): weights into each active neuron from each
-    // neuron. A column is added at a time, so that each sum has the same order of operations on
-    // every processor.
-    Eigen::ArrayXXf weights_;
-    Eigen::ArrayXf has_inputs_;  // 1, or 0 for a neuron without enabled inputs
-    Eigen::ArrayXf values_;      // of the active neurons
-    Eigen::ArrayXf sums_;
+    // One array, so that a controller's data lie together. Columns of length padded_: first one for
+    // each neuron, with its weights into all active neurons; then has_inputs (1, or 0 for a neuron
+    // without enabled inputs); then the neurons' values, twice: now and next.
+    Eigen::ArrayXf columns_;
+    Eigen::Index has_inputs_;  // offsets into columns_
+    Eigen::Index values_;
+    Eigen::Index next_values_;
 };
 
 }  // namespace gene_clocks::neat

@@ -17,6 +17,7 @@ class Population {
 public:
     struct Member {
         std::shared_ptr<const Genome> genome;
+        GenomeId id;           ///< the genome's, at hand for look-ups
         float fitness;         ///< raw: mean energy, as measured here or reported by messages
         std::int64_t reports;  ///< energies that `fitness` is the mean of, for received genomes
         std::size_t species;   ///< index; meaningless until placed
