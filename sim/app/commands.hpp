@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace gene_clocks::app {
+
+/// What the program returns to its caller.
+enum ExitStatus : int {
+    success = 0,
+    failure = 1,        ///< something broke on the way
+    bad_input = 2,      ///< nothing was written
+    interrupted = 130,  ///< by Ctrl-C or SIGTERM; finished runs are kept
+};
+
+// Each adds one subcommand, whose callback does the work, sets `status` to an ExitStatus, and may
+// throw experiment::InputError for bad input.
+void add_run_command(CLI::App& app, int& status);
+void add_study_command(CLI::App& app, int& status);
+void add_settings_command(CLI::App& app, int& status);
+void add_export_command(CLI::App& app, int& status);
+
+}  // namespace gene_clocks::app

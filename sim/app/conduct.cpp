@@ -1,0 +1,106 @@
+#include "conduct.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <set>
+
+#include "commands.hpp"
+#include "runner.hpp"
+#include "stop_signal.hpp"
+#include "store.hpp"
+#include "suggestion.hpp"
+
+namespace gene_clocks::app {
+namespace {
+
+using experiment::RunKey;
+using experiment::Store;
+using experiment::Study;
+using experiment::Task;
+
+std::string utc_now() {
+    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+}
+
+/// Every run of the study once, seed by seed, so that a study that is stopped has compared its arms
+/// on the same seeds. Two arms with the same settings share their runs.
+std::vector<Task> all_tasks(const Study& study) {
+    std::vector<Task> tasks;
+    std::set<RunKey> planned;
+    for (std::uint64_t seed = study.first_seed;
+         seed < study.first_seed + static_cast<std::uint64_t>(study.seeds); ++seed) {
+        for (const experiment::Arm& arm : study.arms) {
+            if (!planned.emplace(arm.settings_hash, seed).second) continue;
+            tasks.push_back({&arm.settings, &arm.arena, seed, arm.settings_hash,
+                             fmt::format("arm {}, seed {}", arm.name, seed)});
+        }
+    }
+    return tasks;
+}
+
+void say_what_is_there(const Store& store, const std::filesystem::path& file, std::size_t all,
+                       std::size_t missing) {
+    if (!store.new_keys().empty()) {
+        fmt::print(
+            stderr,
+            "{}: the settings have been extended since it was written; its runs count as made "
+            "with the defaults of {}\n",
+            file.string(), experiment::list_of(store.new_keys()));
+    }
+    if (missing < all) {
+        fmt::print(stderr, "{}: {} of {} runs are there already\n", file.string(), all - missing,
+                   all);
+    }
+    if (const auto others = store.runs_of_other_versions(); others > 0) {
+        fmt::print(stderr, "{}: {} runs were made by another version of gene-clocks; this is {}\n",
+                   file.string(), others, experiment::program_version());
+    }
+}
+
+}  // namespace
+
+int conduct(const Study& study, const std::filesystem::path& file, std::int64_t threads) {
+    experiment::rehearse(study);
+    const auto& stop = watch_stop_signals();
+    Store store = Store::open_for_writing(file);
+    store.put_study(study);
+
+    std::vector<Task> tasks = all_tasks(study);
+    const std::size_t all = tasks.size();
+    const auto finished = store.finished();
+    std::erase_if(tasks, [&](const Task& task) {
+        return finished.contains({task.settings_hash, task.seed});
+    });
+    std::size_t kept = all - tasks.size();
+    say_what_is_there(store, file, all, tasks.size());
+    if (tasks.empty()) return success;
+
+    fmt::print(stderr, "{}: making {} runs\n", study.name, tasks.size());
+    experiment::RunnerOptions options;
+    options.threads = threads;
+    options.stop = &stop;
+    experiment::Outcome outcome{};
+    {
+        experiment::Progress progress(stderr);
+        outcome = make_runs(
+            std::move(tasks), options, progress, [&](const experiment::FinishedTask& run) {
+                store.put_run({run.task->settings_hash, run.task->seed, run.result,
+                               run.wall_seconds, utc_now(), experiment::program_version()});
+                ++kept;
+            });
+    }
+    if (outcome == experiment::Outcome::finished) {
+        fmt::print(stderr, "{}: all {} runs are there\n", file.string(), all);
+        return success;
+    }
+    fmt::print(stderr,
+               "Stopped. {} of {} runs are kept in {}; the same command goes on from there.\n",
+               kept, all, file.string());
+    return interrupted;
+}
+
+}  // namespace gene_clocks::app

@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "csv_export.hpp"
+#include "input_error.hpp"
+#include "store.hpp"
+
+namespace gene_clocks::app {
+namespace {
+
+using experiment::InputError;
+using experiment::Store;
+using experiment::StoredStudy;
+
+struct Options {
+    std::string store;
+    std::string study;
+    std::string runs;
+    std::string samples;
+};
+
+/// Writes beside the file and renames, so that the file is whole or not there; "-" is standard
+/// output.
+void write_file(const std::string& name, const std::function<void(std::ostream&)>& write) {
+    if (name == "-") {
+        write(std::cout);
+        std::cout.flush();
+        if (!std::cout) throw std::runtime_error("standard output cannot be written");
+        return;
+    }
+    const std::string unfinished = name + ".part";
+    {
+        std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
+        if (!stream) throw InputError(name + ": cannot be written there");
+        write(stream);
+        stream.close();
+        if (!stream) {
+            std::filesystem::remove(unfinished);
+            throw std::runtime_error(name + ": writing failed");
+        }
+    }
+    std::filesystem::rename(unfinished, name);
+}
+
+int run(const Options& options) {
+    if (options.runs.empty() && options.samples.empty()) {
+        throw InputError("nothing to export: give --runs FILE, --samples FILE, or both");
+    }
+    const Store store = Store::open_for_reading(options.store);
+    std::vector<StoredStudy> studies;
+    if (options.study.empty()) {
+        studies = store.studies();
+    } else {
+        studies.push_back(store.study(options.study));
+    }
+    if (!options.runs.empty()) {
+        write_file(options.runs, [&](std::ostream& out) { write_runs_csv(store, studies, out); });
+    }
+    if (!options.samples.empty()) {
+        write_file(options.samples,
+                   [&](std::ostream& out) { write_samples_csv(store, studies, out); });
+    }
+    return success;
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, int& status) {
+    auto* command = app.add_subcommand("export", "Write a store's runs as CSV");
+    auto options = std::make_shared<Options>();
+    command->add_option("STORE", options->store, "Store that `gene-clocks study` filled")
+        ->required();
+    command->add_option("--study", options->study, "Only this study's runs");
+    command->add_option("--runs", options->runs,
+                        "File for one line per run; - for standard output");
+    command->add_option("--samples", options->samples,
+                        "File for one line per sample of each run; - for standard output");
+    command->footer(
+        "Example:\n  gene-clocks export results/gecco15.sqlite --runs runs.csv --samples "
+        "samples.csv\n");
+    command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace gene_clocks::app

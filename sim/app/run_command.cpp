@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "arena_file.hpp"
+#include "choice_names.hpp"
+#include "commands.hpp"
+#include "runner.hpp"
+#include "selection_options.hpp"
+#include "settings_io.hpp"
+#include "stop_signal.hpp"
+#include "store.hpp"
+#include "summary.hpp"
+
+namespace gene_clocks::app {
+namespace {
+
+using experiment::FinishedTask;
+using experiment::RunSummary;
+
+struct RunOptions {
+    SelectionOptions selection;
+    std::uint64_t seed = 1;
+    bool json = false;
+};
+
+double rate(const sim::RunResult& result) {
+    return result.cpu_seconds > 0.0 ? static_cast<double>(result.robot_steps) / result.cpu_seconds
+                                    : 0.0;
+}
+
+nlohmann::ordered_json to_json(const RunOptions& options, const FinishedTask& run) {
+    const sim::Settings& settings = *run.task->settings;
+    const sim::RunResult& result = run.result;
+    const sim::RunCounters& counters = result.counters;
+    const RunSummary summary = experiment::summarise(result.samples, settings.measures);
+    nlohmann::ordered_json json = {
+        {"task", experiment::name_of(settings.task)},
+        {"source", experiment::name_of(settings.source)},
+        {"profile", options.selection.profile},
+        {"parameters", experiment::parameter_set_of(options.selection.selection())},
+        {"seed", run.task->seed},
+        {"f_c", summary.measures.f_c},
+        {"f_b", summary.measures.f_b},
+        {"t_f", summary.measures.t_f},
+        {"f_a", summary.measures.f_a},
+        {"final_swarm_fitness", summary.final_swarm_fitness},
+        {"swarm_fitness_at_10000", nullptr},
+        {"species", summary.species},
+        {"added_elements", summary.added_elements},
+        {"controller_size", summary.controller_size},
+        {"births", counters.births},
+        {"matings", counters.matings},
+        {"mutations", counters.mutations},
+        {"genes_created", counters.genes_created},
+        {"messages_sent", counters.messages_sent},
+        {"messages_received", counters.messages_received},
+        {"genomes_accepted", counters.genomes_accepted},
+        {"collisions", counters.collisions},
+        {"trajectory_hash", fmt::format("{:016x}", result.trajectory_hash)},
+        {"robot_steps", result.robot_steps},
+        {"cpu_seconds", result.cpu_seconds},
+        {"robot_steps_per_cpu_second", rate(result)},
+        {"settings_hash", run.task->settings_hash},
+        {"program_version", experiment::program_version()},
+    };
+    if (summary.swarm_fitness_at_10000)
+        json["swarm_fitness_at_10000"] = *summary.swarm_fitness_at_10000;
+    return json;
+}
+
+void print_text(const FinishedTask& run) {
+    const sim::Settings& settings = *run.task->settings;
+    const RunSummary summary = experiment::summarise(run.result.samples, settings.measures);
+    const auto line = [](std::string_view name, const std::string& value,
+                         std::string_view meaning) {
+        fmt::print("{:<20} {:>12}  {}\n", name, value, meaning);
+    };
+    const auto real = [](double value) { return fmt::format("{:.2f}", value); };
+    line("f_c", real(summary.measures.f_c), "mean swarm fitness over the last share of the run");
+    line("f_b", real(summary.measures.f_b), "swarm fitness at the budget");
+    line("t_f", fmt::format("{:.0f}", summary.measures.t_f), "cycles until the target was reached");
+    line("f_a", real(summary.measures.f_a), "swarm fitness above the target, summed");
+    line("final swarm fitness", real(summary.final_swarm_fitness), "");
+    if (summary.swarm_fitness_at_10000) {
+        line("at cycle 10000", real(*summary.swarm_fitness_at_10000), "");
+    }
+    line("species", real(summary.species), "per robot, over the last share of the run");
+    line("added elements", real(summary.added_elements), "neurons and connections, likewise");
+    line("births", fmt::format("{}", run.result.counters.births), "");
+    line("matings", fmt::format("{}", run.result.counters.matings),
+         "births with two different parents");
+    line("trajectory hash", fmt::format("{:016x}", run.result.trajectory_hash), "");
+    line("CPU seconds", real(run.result.cpu_seconds),
+         fmt::format("{:.1f} M robot-steps per CPU-second", rate(run.result) / 1e6));
+}
+
+int run(const RunOptions& options) {
+    const sim::Settings settings = options.selection.settings();
+    const sim::Arena arena = experiment::find_arena(settings.world.arena);
+    const experiment::Task task{&settings, &arena, options.seed,
+                                experiment::hash_of(experiment::canonical_text(settings, arena)),
+                                fmt::format("seed {}", options.seed)};
+
+    experiment::RunnerOptions runner;
+    runner.stop = &watch_stop_signals();
+    const bool is_watched = isatty(STDERR_FILENO) != 0;
+    experiment::Progress progress(is_watched ? stderr : nullptr);
+    const auto outcome =
+        experiment::make_runs({task}, runner, progress, [&](const FinishedTask& finished) {
+            if (options.json) {
+                fmt::print("{}\n", to_json(options, finished).dump(2));
+            } else {
+                print_text(finished);
+            }
+        });
+    return outcome == experiment::Outcome::finished ? success : interrupted;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& status) {
+    auto* command = app.add_subcommand("run", "Make one run and show what came of it");
+    auto options = std::make_shared<RunOptions>();
+    options->selection.add_to(*command);
+    command
+        ->add_option("--seed", options->seed, "Seed: the same seed and settings give the same run")
+        ->capture_default_str()
+        ->type_name("N")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62U));
+    command->add_flag("--json", options->json, "Print one JSON object instead of a table");
+    command->footer(
+        "Examples:\n"
+        "  gene-clocks run --task navigation --seed 1\n"
+        "  gene-clocks run --task collection --source timestamp --profile gecco15 --seed 7 --json\n"
+        "  gene-clocks run --task navigation --set odneat.p_mate=0.5 --set run.cycles=5000\n");
+    command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace gene_clocks::app

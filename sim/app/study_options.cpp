@@ -1,0 +1,33 @@
+#include "study_options.hpp"
+
+#include "selection_options.hpp"
+
+namespace gene_clocks::app {
+
+void StudyCommandOptions::add_to(CLI::App& command) {
+    command.add_flag("--quick", quick,
+                     "Few seeds and short runs: shows that all works, proves nothing");
+    command.add_option("--seeds", seeds, "Number of seeds, instead of the study's")
+        ->type_name("N")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}));
+    add_assignments(command, assignments);
+    command
+        .add_option("--threads", threads, "Runs made at a time; without it one for each processor")
+        ->type_name("N")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1024}));
+}
+
+experiment::StudyOptions StudyCommandOptions::study_options() const {
+    experiment::StudyOptions options;
+    options.quick = quick;
+    if (seeds > 0) options.seeds = seeds;
+    options.assignments = assignments;
+    return options;
+}
+
+std::filesystem::path store_file(const std::string& named, const experiment::Study& study) {
+    if (!named.empty()) return named;
+    return std::filesystem::path(results_folder) / (study.name + ".sqlite");
+}
+
+}  // namespace gene_clocks::app

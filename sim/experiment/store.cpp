@@ -1,0 +1,402 @@
+#include "store.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <SQLiteCpp/VariadicBind.h>
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+
+#include "input_error.hpp"
+#include "settings_io.hpp"
+#include "suggestion.hpp"
+
+namespace gene_clocks::experiment {
+namespace {
+
+/// Marks the file as ours: "GnCk". Tools such as file(1) show it.
+constexpr int application_id = 0x476e436b;
+/// Raised whenever the tables change.
+constexpr int format_version = 1;
+
+constexpr const char* tables = R"sql(
+-- What runs depend on besides their seeds: canonical JSON, and its XXH3-128.
+CREATE TABLE settings (
+    hash TEXT PRIMARY KEY,
+    canonical TEXT NOT NULL
+) STRICT;
+
+CREATE TABLE study (
+    name TEXT PRIMARY KEY,
+    title TEXT NOT NULL,
+    description TEXT NOT NULL,
+    first_seed INTEGER NOT NULL,
+    seeds INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE arm (
+    study TEXT NOT NULL REFERENCES study (name) ON DELETE CASCADE,
+    position INTEGER NOT NULL,
+    name TEXT NOT NULL,
+    profile TEXT NOT NULL,
+    parameters TEXT NOT NULL,
+    settings_hash TEXT NOT NULL REFERENCES settings (hash) ON UPDATE CASCADE,
+    settings TEXT NOT NULL,  -- all of them, JSON
+    PRIMARY KEY (study, name)
+) STRICT;
+
+-- A row is a finished run; its samples are in the table sample.
+CREATE TABLE run (
+    id INTEGER PRIMARY KEY,
+    settings_hash TEXT NOT NULL REFERENCES settings (hash) ON UPDATE CASCADE,
+    seed INTEGER NOT NULL,
+    births INTEGER NOT NULL,
+    matings INTEGER NOT NULL,
+    mutations INTEGER NOT NULL,
+    genes_created INTEGER NOT NULL,
+    messages_sent INTEGER NOT NULL,
+    messages_received INTEGER NOT NULL,
+    genomes_accepted INTEGER NOT NULL,
+    collisions INTEGER NOT NULL,
+    trajectory_hash TEXT NOT NULL,
+    robot_steps INTEGER NOT NULL,
+    cpu_seconds REAL NOT NULL,
+    wall_seconds REAL NOT NULL,
+    finished_at TEXT NOT NULL,
+    program_version TEXT NOT NULL,
+    UNIQUE (settings_hash, seed)
+) STRICT;
+
+CREATE TABLE sample (
+    run INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    cycle INTEGER NOT NULL,
+    swarm_fitness REAL NOT NULL,
+    species REAL NOT NULL,
+    added_elements REAL NOT NULL,
+    controller_size REAL NOT NULL,
+    PRIMARY KEY (run, cycle)
+) STRICT, WITHOUT ROWID;
+)sql";
+
+InputError unfit(const std::filesystem::path& file, const std::string& why) {
+    return InputError(file.string() + ": " + why);
+}
+
+/// What SQLite's complaint on opening a file means to the user.
+InputError explain(const std::filesystem::path& file, const SQLite::Exception& error) {
+    switch (error.getErrorCode()) {
+        case SQLITE_NOTADB:
+            return unfit(file, "is not a store of runs (it is no SQLite file)");
+        case SQLITE_BUSY:
+        case SQLITE_LOCKED:
+            return unfit(file, "is in use by another process; try again when it has ended");
+        case SQLITE_READONLY:
+            return unfit(file, "cannot be written: it is read-only");
+        case SQLITE_CANTOPEN:
+            return unfit(file, "cannot be opened or made there");
+        case SQLITE_CORRUPT:
+            return unfit(file, "is damaged");
+        default:
+            return unfit(file, error.what());
+    }
+}
+
+int pragma(SQLite::Database& database, const char* name) {
+    return database.execAndGet(fmt::format("PRAGMA {}", name)).getInt();
+}
+
+/// Whether the file holds nothing at all, as one does whose making was cut short.
+bool is_empty(SQLite::Database& database) {
+    return pragma(database, "page_count") == 0;
+}
+
+/// Throws InputError if the database is not a store of this version.
+void check_identity(const std::filesystem::path& file, SQLite::Database& database) {
+    if (pragma(database, "application_id") != application_id) {
+        throw unfit(file, "is not a store of runs (it is another program's SQLite file)");
+    }
+    if (const int version = pragma(database, "user_version"); version != format_version) {
+        throw unfit(file, fmt::format("is a store of format {}; gene-clocks {} uses format {}",
+                                      version, program_version(), format_version));
+    }
+}
+
+void check_path(const std::filesystem::path& file, bool must_exist) {
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    if (std::filesystem::is_directory(status))
+        throw unfit(file, "is a folder, not a store of runs");
+    if (must_exist && !std::filesystem::exists(status)) throw unfit(file, "there is no such store");
+    const auto folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder, error)) {
+        throw unfit(file, fmt::format("the folder {} does not exist", folder.string()));
+    }
+}
+
+/// Executes a statement that returns no rows.
+template <typename... Arguments>
+void execute(SQLite::Database& database, const char* sql, const Arguments&... arguments) {
+    SQLite::Statement statement(database, sql);
+    SQLite::bind(statement, arguments...);
+    statement.exec();
+}
+
+std::string hexadecimal(std::uint64_t value) {
+    return fmt::format("{:016x}", value);
+}
+
+std::int64_t as_integer(std::uint64_t value) {
+    return static_cast<std::int64_t>(value);
+}
+std::uint64_t unsigned_column(SQLite::Statement& row, const char* name) {
+    return static_cast<std::uint64_t>(row.getColumn(name).getInt64());
+}
+
+void insert_samples(SQLite::Database& database, std::int64_t run,
+                    const std::vector<sim::Sample>& samples) {
+    SQLite::Statement insert(database, "INSERT INTO sample VALUES (?, ?, ?, ?, ?, ?)");
+    for (const sim::Sample& sample : samples) {
+        SQLite::bind(insert, run, sample.cycle, sample.swarm_fitness, sample.species,
+                     sample.added_elements, sample.controller_size);
+        insert.exec();
+        insert.reset();
+    }
+}
+
+std::vector<sim::Sample> read_samples(SQLite::Database& database, std::int64_t run) {
+    std::vector<sim::Sample> samples;
+    SQLite::Statement rows(database,
+                           "SELECT cycle, swarm_fitness, species, added_elements, controller_size "
+                           "FROM sample WHERE run = ? ORDER BY cycle");
+    rows.bind(1, run);
+    while (rows.executeStep()) {
+        samples.push_back({rows.getColumn(0).getInt64(), rows.getColumn(1).getDouble(),
+                           rows.getColumn(2).getDouble(), rows.getColumn(3).getDouble(),
+                           rows.getColumn(4).getDouble()});
+    }
+    return samples;
+}
+
+sim::RunCounters read_counters(SQLite::Statement& row) {
+    return {.births = unsigned_column(row, "births"),
+            .matings = unsigned_column(row, "matings"),
+            .mutations = unsigned_column(row, "mutations"),
+            .genes_created = unsigned_column(row, "genes_created"),
+            .messages_sent = unsigned_column(row, "messages_sent"),
+            .messages_received = unsigned_column(row, "messages_received"),
+            .genomes_accepted = unsigned_column(row, "genomes_accepted"),
+            .collisions = unsigned_column(row, "collisions")};
+}
+
+std::vector<StoredArm> read_arms(SQLite::Database& database, const std::string& study) {
+    std::vector<StoredArm> arms;
+    SQLite::Statement rows(database, "SELECT * FROM arm WHERE study = ? ORDER BY position");
+    rows.bind(1, study);
+    while (rows.executeStep()) {
+        StoredArm arm;
+        arm.name = rows.getColumn("name").getString();
+        arm.profile = rows.getColumn("profile").getString();
+        arm.parameters = rows.getColumn("parameters").getString();
+        arm.settings_hash = rows.getColumn("settings_hash").getString();
+        const auto json =
+            nlohmann::json::parse(rows.getColumn("settings").getString(), nullptr, false);
+        arm.settings = settings_from_json(
+            json, {fmt::format("{}, study {}, arm {}", database.getFilename(), study, arm.name)});
+        arms.push_back(std::move(arm));
+    }
+    return arms;
+}
+
+}  // namespace
+
+std::string program_version() {
+    return GENE_CLOCKS_VERSION;
+}
+
+Store::Store(std::unique_ptr<SQLite::Database> database) : database_(std::move(database)) {
+    database_->exec("PRAGMA foreign_keys = ON");
+}
+Store::Store(Store&&) noexcept = default;
+Store& Store::operator=(Store&&) noexcept = default;
+Store::~Store() = default;
+
+Store Store::open_for_writing(const std::filesystem::path& file) {
+    check_path(file, false);
+    try {
+        auto database = std::make_unique<SQLite::Database>(
+            file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+        // Before the first read: held until the store is closed, and given back by the system if
+        // the process is killed.
+        database->exec("PRAGMA locking_mode = EXCLUSIVE");
+        const bool is_new = is_empty(*database);
+        if (!is_new) check_identity(file, *database);
+        Store store(std::move(database));
+        if (is_new) {
+            store.create_tables();
+        } else {
+            store.take_over_new_keys();
+        }
+        store.database_->exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
+        // Takes the lock even where nothing is written yet.
+        SQLite::Transaction(*store.database_, SQLite::TransactionBehavior::EXCLUSIVE).commit();
+        return store;
+    } catch (const SQLite::Exception& error) {
+        throw explain(file, error);
+    }
+}
+
+Store Store::open_for_reading(const std::filesystem::path& file) {
+    check_path(file, true);
+    try {
+        auto database = std::make_unique<SQLite::Database>(file.string(), SQLite::OPEN_READONLY);
+        check_identity(file, *database);
+        return Store(std::move(database));
+    } catch (const SQLite::Exception& error) {
+        throw explain(file, error);
+    }
+}
+
+void Store::create_tables() {
+    SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::EXCLUSIVE);
+    database_->exec(fmt::format("PRAGMA application_id = {}", application_id));
+    database_->exec(fmt::format("PRAGMA user_version = {}", format_version));
+    database_->exec(tables);
+    transaction.commit();
+}
+
+void Store::take_over_new_keys() {
+    std::vector<std::pair<std::string, std::string>> extended;  // old hash, new text
+    SQLite::Statement rows(*database_, "SELECT hash, canonical FROM settings");
+    while (rows.executeStep()) {
+        auto [text, added] =
+            with_new_keys(rows.getColumn(1).getString(), {database_->getFilename()});
+        if (added.empty()) continue;
+        extended.emplace_back(rows.getColumn(0).getString(), std::move(text));
+        new_keys_ = std::move(added);
+    }
+    rows.reset();
+    SQLite::Transaction transaction(*database_);
+    for (const auto& [hash, text] : extended) {
+        execute(*database_, "UPDATE settings SET hash = ?, canonical = ? WHERE hash = ?",
+                hash_of(text), text, hash);
+    }
+    transaction.commit();
+}
+
+void Store::put_study(const Study& study) {
+    SQLite::Transaction transaction(*database_);
+    execute(*database_, "DELETE FROM study WHERE name = ?", study.name);
+    execute(*database_, "INSERT INTO study VALUES (?, ?, ?, ?, ?)", study.name, study.title,
+            study.description, as_integer(study.first_seed), study.seeds);
+    std::int64_t position = 0;
+    for (const Arm& arm : study.arms) {
+        execute(*database_, "INSERT OR IGNORE INTO settings VALUES (?, ?)", arm.settings_hash,
+                arm.canonical);
+        execute(*database_, "INSERT INTO arm VALUES (?, ?, ?, ?, ?, ?, ?)", study.name, position++,
+                arm.name, arm.profile, arm.parameters, arm.settings_hash,
+                to_json(arm.settings).dump());
+    }
+    transaction.commit();
+}
+
+void Store::put_run(const RunRecord& record) {
+    SQLite::Transaction transaction(*database_);
+    const sim::RunResult& result = record.result;
+    const sim::RunCounters& counters = result.counters;
+    execute(*database_,
+            "INSERT INTO run (settings_hash, seed, births, matings, mutations, genes_created, "
+            "messages_sent, messages_received, genomes_accepted, collisions, trajectory_hash, "
+            "robot_steps, cpu_seconds, wall_seconds, finished_at, program_version) "
+            "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            record.settings_hash, as_integer(record.seed), as_integer(counters.births),
+            as_integer(counters.matings), as_integer(counters.mutations),
+            as_integer(counters.genes_created), as_integer(counters.messages_sent),
+            as_integer(counters.messages_received), as_integer(counters.genomes_accepted),
+            as_integer(counters.collisions), hexadecimal(result.trajectory_hash),
+            as_integer(result.robot_steps), result.cpu_seconds, record.wall_seconds,
+            record.finished_at, record.program_version);
+    insert_samples(*database_, database_->getLastInsertRowid(), result.samples);
+    transaction.commit();
+}
+
+std::set<RunKey> Store::finished() const {
+    std::set<RunKey> keys;
+    SQLite::Statement rows(*database_, "SELECT settings_hash, seed FROM run");
+    while (rows.executeStep()) {
+        keys.emplace(rows.getColumn(0).getString(),
+                     static_cast<std::uint64_t>(rows.getColumn(1).getInt64()));
+    }
+    return keys;
+}
+
+std::vector<StoredStudy> Store::studies() const {
+    std::vector<StoredStudy> studies;
+    SQLite::Statement rows(*database_, "SELECT * FROM study ORDER BY name");
+    while (rows.executeStep()) {
+        StoredStudy study;
+        study.name = rows.getColumn("name").getString();
+        study.title = rows.getColumn("title").getString();
+        study.description = rows.getColumn("description").getString();
+        study.first_seed = unsigned_column(rows, "first_seed");
+        study.seeds = rows.getColumn("seeds").getInt64();
+        study.arms = read_arms(*database_, study.name);
+        studies.push_back(std::move(study));
+    }
+    return studies;
+}
+
+StoredStudy Store::study(const std::string& name) const {
+    auto all = studies();
+    std::vector<std::string> names;
+    for (const StoredStudy& study : all) names.push_back(study.name);
+    const std::string& file = database_->getFilename();
+    if (all.empty()) throw InputError(file + ": holds no study yet");
+    if (name.empty()) {
+        if (all.size() == 1) return std::move(all.front());
+        throw InputError(
+            fmt::format("{}: holds {} studies; name one: {}", file, all.size(), one_of(names)));
+    }
+    const auto found = std::ranges::find(all, name, &StoredStudy::name);
+    if (found == all.end()) {
+        throw InputError(
+            fmt::format("{}: holds no study \"{}\"; there is {}", file, name, one_of(names)));
+    }
+    return std::move(*found);
+}
+
+std::vector<RunRecord> Store::runs(const StoredStudy& study, const StoredArm& arm) const {
+    std::vector<RunRecord> records;
+    SQLite::Statement rows(
+        *database_,
+        "SELECT * FROM run WHERE settings_hash = ? AND seed >= ? AND seed < ? ORDER BY seed");
+    SQLite::bind(rows, arm.settings_hash, as_integer(study.first_seed),
+                 as_integer(study.first_seed) + study.seeds);
+    while (rows.executeStep()) {
+        RunRecord record;
+        record.settings_hash = arm.settings_hash;
+        record.seed = unsigned_column(rows, "seed");
+        record.result.counters = read_counters(rows);
+        record.result.trajectory_hash =
+            std::stoull(rows.getColumn("trajectory_hash").getString(), nullptr, 16);
+        record.result.robot_steps = unsigned_column(rows, "robot_steps");
+        record.result.cpu_seconds = rows.getColumn("cpu_seconds").getDouble();
+        record.result.samples = read_samples(*database_, rows.getColumn("id").getInt64());
+        record.wall_seconds = rows.getColumn("wall_seconds").getDouble();
+        record.finished_at = rows.getColumn("finished_at").getString();
+        record.program_version = rows.getColumn("program_version").getString();
+        records.push_back(std::move(record));
+    }
+    return records;
+}
+
+std::int64_t Store::runs_of_other_versions() const {
+    SQLite::Statement count(*database_, "SELECT COUNT(*) FROM run WHERE program_version <> ?");
+    count.bind(1, program_version());
+    count.executeStep();
+    return count.getColumn(0).getInt64();
+}
+
+}  // namespace gene_clocks::experiment
