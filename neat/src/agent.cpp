@@ -36,7 +36,7 @@ void Agent::activate(std::shared_ptr<const Genome> genome) {
     energy_samples_ = 1;
     age_cycles_ = 0;
     cycles_to_sample_ = settings_.fitness_period_cycles;
-    active_ = genome;
+    message_.genome = genome;
     population_.add(std::move(genome), fitness_);
     population_.speciate();
     share_is_current_ = false;
@@ -47,12 +47,12 @@ void Agent::sample_fitness() {
     energy_sum_ += energy_;
     ++energy_samples_;
     fitness_ = static_cast<float>(energy_sum_ / static_cast<double>(energy_samples_));
-    population_.set_fitness(*population_.find(active_->id), fitness_);
+    population_.set_fitness(*population_.find(active().id), fitness_);
     share_is_current_ = false;
 }
 
 void Agent::refresh_share() {
-    share_ = population_.species_share(*population_.find(active_->id));
+    share_ = population_.species_share(*population_.find(active().id));
     share_is_current_ = true;
 }
 
@@ -62,7 +62,7 @@ Reception Agent::receive(const Message& message) {
     if (!source_->observe(message.stamp)) return Reception::refused;
     if (!tabu_.approves(*message.genome)) return Reception::tabu;
 
-    const auto worst = population_.worst(active_->id);
+    const auto worst = population_.worst(active().id);
     const bool has_room = !population_.is_full();
     const bool is_fitter = worst && population_.members()[*worst].fitness < message.energy;
     if (!has_room && !is_fitter) return Reception::unfit;
@@ -100,7 +100,7 @@ Genome Agent::make_offspring(Birth& birth, double now_cycles) {
 
 Birth Agent::replace(double now_cycles) {
     // The dead genome is tabu from now on, but stays a candidate parent.
-    tabu_.add(active_);
+    tabu_.add(message_.genome);
     Birth birth;
     auto offspring = std::make_shared<const Genome>(make_offspring(birth, now_cycles));
     if (population_.is_full()) tabu_.add(population_.remove(*population_.worst()));

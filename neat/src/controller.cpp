@@ -1,6 +1,7 @@
 #include "gene_clocks/neat/controller.hpp"
 
 #include <array>
+#include <bit>
 #include <cassert>
 #include <utility>
 
@@ -42,12 +43,13 @@ std::span<const float> Controller::update(std::span<const float> inputs) {
         for (Eigen::Index i = 0; i < active_; ++i) {
             sum += weights_from(inputs_ + i, block) * values[i];
         }
-        std::array<float, lanes> active{};
-        for (std::size_t lane = 0; lane < lanes; ++lane) active[lane] = logistic(sum[lane], slope_);
-        const auto has_inputs =
-            Eigen::Map<const Lanes, Eigen::Aligned16>(columns_.data() + has_inputs_ + block);
+        std::array<float, lanes> numbers;
+        Lanes::Map(numbers.data()) = sum;
+        numbers = std::bit_cast<std::array<float, lanes>>(
+            logistic(std::bit_cast<FourFloats>(numbers), slope_));
         Eigen::Map<Lanes, Eigen::Aligned16>(next + block) =
-            Eigen::Map<const Lanes>(active.data()) * has_inputs;
+            Lanes::Map(numbers.data()) *
+            Eigen::Map<const Lanes, Eigen::Aligned16>(columns_.data() + has_inputs_ + block);
     }
     std::swap(values_, next_values_);
     return {next, static_cast<std::size_t>(outputs_)};

@@ -11,17 +11,21 @@ void TabuList::add(std::shared_ptr<const Genome> genome) {
     if (listed != entries_.end()) {
         listed->receptions_left = lifetime_receptions_;
     } else {
-        const GenomeId itself = genome->id;
-        entries_.push_back({std::move(genome), lifetime_receptions_, itself, true});
+        const Comparison with_itself{genome->id, true};
+        Entry entry{std::move(genome), lifetime_receptions_, {}};
+        entry.compared.fill(with_itself);
+        entries_.push_back(std::move(entry));
     }
 }
 
 bool TabuList::is_similar(Entry& entry, const Genome& received) const {
-    if (entry.compared_with != received.id) {
-        entry.compared_with = received.id;
-        entry.was_similar = distance(received, *entry.genome, measure_, threshold_) < threshold_;
+    auto& compared =
+        entry.compared[static_cast<std::size_t>(received.id.robot) % entry.compared.size()];
+    if (compared.with != received.id) {
+        compared.with = received.id;
+        compared.similar = distance(received, *entry.genome, measure_, threshold_) < threshold_;
     }
-    return entry.was_similar;
+    return compared.similar;
 }
 
 bool TabuList::approves(const Genome& received) {

@@ -17,6 +17,8 @@
 #define GENE_CLOCKS_MULTIVERSION
 #endif
 
+/// For every function with lanes in its signature: versions of a function for different processors
+/// pass them differently, so that none may be called by another version.
 #define GENE_CLOCKS_INLINE inline __attribute__((always_inline))
 
 namespace gene_clocks::sim {

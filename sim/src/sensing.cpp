@@ -64,7 +64,8 @@ float pixel_hash(std::int32_t x, std::int32_t y) {
 }
 
 /// Wall hits that pass for items: in the reference system some pixels at the rim of a wall do.
-IntLanes slipped(const RayFan& fan, IntLanes wall_hit, float x, float y, float share) {
+GENE_CLOCKS_INLINE IntLanes slipped(const RayFan& fan, IntLanes wall_hit, float x, float y,
+                                    float share) {
     IntLanes slip{};
     for (int lane = 0; lane < lane_count; ++lane) {
         if (wall_hit[lane] == 0) continue;
@@ -86,6 +87,7 @@ void sense_all(World& world) {
     const float item_reach_square = world.item_reach_px_ * world.item_reach_px_;
     const auto slip_share = static_cast<float>(world.settings_.item_slip);
     const float near_square = (world.range_px_ + 2 * radius) * (world.range_px_ + 2 * radius);
+    const float meeting_square = world.meeting_px_ * world.meeting_px_;
     std::uint32_t* const near_list = world.near_.data();
     const ArenaMap& map = *world.map_;
     for (std::size_t i = 0; i < world.robots(); ++i) {
@@ -117,11 +119,14 @@ void sense_all(World& world) {
 
         // First those that are near enough, without a branch that nobody can predict.
         std::size_t near = 0;
+        bool meets_robot = false;
         for (const std::uint32_t j : world.neighbours_.near(i)) {
             const float dx = world.x_px_[j] - x;
             const float dy = world.y_px_[j] - y;
+            const float distance_square = dx * dx + dy * dy;
             near_list[near] = j;
-            near += dx * dx + dy * dy < near_square ? 1u : 0u;
+            near += distance_square < near_square ? 1u : 0u;
+            meets_robot |= distance_square < meeting_square;
         }
         IntLanes who = IntLanes{} - 1;
         for (std::size_t k = 0; k < near; ++k) {
@@ -137,6 +142,7 @@ void sense_all(World& world) {
         wall_hit &= who < 0;
 
         Senses& senses = world.senses_[i];
+        senses.meets_robot = meets_robot;
         senses.reaches_item = false;
         IntLanes item_hit{};
         if (world.has_items_) {

@@ -203,7 +203,7 @@ void Simulation::broadcast(std::uint32_t sender) {
     neat::Agent& agent = agents_[sender];
     if (!agent.random().chance(agent.broadcast_probability())) return;
     ++result_.counters.messages_sent;
-    const neat::Message message = agent.message();
+    const neat::Message& message = agent.message();
     const auto& hit = world_.senses(sender).robot;
     for (std::size_t ray = 0; ray < ray_count; ++ray) {
         const bool heard_before =

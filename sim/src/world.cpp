@@ -34,6 +34,7 @@ World::World(const Settings& settings, std::shared_ptr<const ArenaMap> map,
       range_px_(static_cast<float>(settings_.sensor_range_px)),
       radio_range_px_(static_cast<float>(settings.radio.range_px)),
       radius_px_(static_cast<float>(settings_.robot_radius_px)),
+      meeting_px_(static_cast<float>(2 * (settings_.robot_radius_px + settings_.translation_px))),
       item_radius_px_(static_cast<float>(settings_.item_radius_px)),
       item_reach_px_(static_cast<float>(settings_.item_reach_px)),
       map_(std::move(map)),
@@ -208,8 +209,10 @@ static void turn_and_plan(const Motion& motion) {
 
 bool World::collides(std::size_t robot, float x, float y) const {
     bool hit = map_->robot_touches_wall(x, y);
-    for (const std::uint32_t other : neighbours_.near(robot)) {
-        hit |= std::abs(x_px_[other] - x) + std::abs(y_px_[other] - y) < 2 * radius_px_;
+    if (senses_[robot].meets_robot) {
+        for (const std::uint32_t other : neighbours_.near(robot)) {
+            hit |= std::abs(x_px_[other] - x) + std::abs(y_px_[other] - y) < 2 * radius_px_;
+        }
     }
     if (has_items_) {
         items_.visit_near(x, y, [&](std::size_t item) {

@@ -25,7 +25,8 @@ struct alignas(32) Senses {
     std::array<std::int32_t, ray_count> robot;  ///< who is hit within radio range, or −1
     float nearest_obstacle;                     ///< the smallest of `obstacle`
     bool hears_robot;                           ///< any of `robot` is not −1
-    bool reaches_item;                          ///< an item's centre is near enough to be picked up
+    bool meets_robot;   ///< a robot is so near that the next moves can make them collide
+    bool reaches_item;  ///< an item's centre is near enough to be picked up
 };
 
 /// The physical side of a run: bodies, movement, collisions, sensing.
@@ -75,6 +76,7 @@ private:
     float range_px_;        // of the rays, from the robot's edge
     float radio_range_px_;  // the same for robots that hear a broadcast
     float radius_px_;
+    float meeting_px_;  // centres that are farther apart stay so in the next moves
     float item_radius_px_;
     float item_reach_px_;
     std::shared_ptr<const ArenaMap> map_;

@@ -54,7 +54,12 @@ public:
         if (!share_is_current_) refresh_share();
         return share_;
     }
-    Message message() const { return {active_, energy_, source_->stamp()}; }
+    /// What a broadcast sends now; valid until the next call.
+    const Message& message() {
+        message_.energy = energy_;
+        message_.stamp = source_->stamp();
+        return message_;
+    }
 
     Reception receive(const Message& message);
 
@@ -87,7 +92,7 @@ public:
     RobotId robot() const { return robot_; }
     float energy() const { return energy_; }
     float fitness() const { return fitness_; }
-    const Genome& active() const { return *active_; }
+    const Genome& active() const { return *message_.genome; }
     const Population& population() const { return population_; }
     const TabuList& tabu_list() const { return tabu_; }
     const InnovationSource& source() const { return *source_; }
@@ -107,8 +112,8 @@ private:
     std::int64_t age_cycles_ = 0;
     std::int64_t cycles_to_sample_ = 0;  // invariant: > 0
     std::int64_t maturation_cycles_;
-    Controller controller_;                 // of active_
-    std::shared_ptr<const Genome> active_;  // invariant: a member of population_
+    Controller controller_;  // of the active genome
+    Message message_;        // invariant: its genome, the active one, is a member of population_
 
     double energy_sum_ = 0.0;
     std::int64_t energy_samples_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -28,12 +29,16 @@ public:
     std::size_t size() const { return entries_.size(); }
 
 private:
+    // A robot hears the same few neighbours many times in a row: an entry remembers its last
+    // comparison with a genome of each of four residues of the maker's id.
+    struct Comparison {
+        GenomeId with;
+        bool similar;
+    };
     struct Entry {
         std::shared_ptr<const Genome> genome;
         std::int64_t receptions_left;
-        // A robot hears the same genome many times in a row: the last comparison is remembered.
-        GenomeId compared_with;
-        bool was_similar;
+        std::array<Comparison, 4> compared;
     };
 
     bool is_similar(Entry& entry, const Genome& received) const;
