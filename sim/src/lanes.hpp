@@ -3,7 +3,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 /// Compiles a function for several x86-64 levels; the processor's best is picked at start-up.
 /// The same operations run in the same order on every lane, and none is fused, so that all
@@ -12,7 +14,7 @@
 #if defined(__x86_64__) && defined(__linux__) && defined(__OPTIMIZE__) && \
     !defined(GENE_CLOCKS_SANITIZED)
 #define GENE_CLOCKS_MULTIVERSION \
-    __attribute__((target_clones("default", "avx2", "arch=skylake-avx512")))
+    __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
 #else
 #define GENE_CLOCKS_MULTIVERSION
 #endif
@@ -28,7 +30,7 @@ namespace gene_clocks::sim {
 using FloatLanes = float __attribute__((vector_size(32)));
 using IntLanes = std::int32_t __attribute__((vector_size(32)));  ///< a mask lane is 0 or −1
 
-inline constexpr int lane_count = 8;
+inline constexpr std::size_t lane_count = 8;
 
 GENE_CLOCKS_INLINE FloatLanes lanes(float value) {
     return FloatLanes{} + value;
@@ -44,8 +46,14 @@ GENE_CLOCKS_INLINE FloatLanes lanes_max(FloatLanes a, FloatLanes b) {
 
 GENE_CLOCKS_INLINE FloatLanes lanes_sqrt(FloatLanes values) {
     FloatLanes roots;
-    for (int lane = 0; lane < lane_count; ++lane) roots[lane] = std::sqrt(values[lane]);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) roots[lane] = std::sqrt(values[lane]);
     return roots;
+}
+
+template <class Lanes, class Value>
+GENE_CLOCKS_INLINE void store(Lanes values, std::array<Value, lane_count>& to) {
+    static_assert(sizeof values == sizeof to);
+    std::memcpy(to.data(), &values, sizeof values);
 }
 
 GENE_CLOCKS_INLINE bool any(IntLanes mask) {
@@ -55,11 +63,10 @@ GENE_CLOCKS_INLINE bool any(IntLanes mask) {
 }
 
 GENE_CLOCKS_INLINE float smallest(FloatLanes values) {
-    float least = values[0];
-    for (int lane = 1; lane < lane_count; ++lane) {
-        least = values[lane] < least ? values[lane] : least;
-    }
-    return least;
+    values = lanes_min(values, __builtin_shufflevector(values, values, 4, 5, 6, 7, 0, 1, 2, 3));
+    values = lanes_min(values, __builtin_shufflevector(values, values, 2, 3, 0, 1, 6, 7, 4, 5));
+    values = lanes_min(values, __builtin_shufflevector(values, values, 1, 0, 3, 2, 5, 4, 7, 6));
+    return values[0];
 }
 
 }  // namespace gene_clocks::sim

@@ -67,7 +67,7 @@ float pixel_hash(std::int32_t x, std::int32_t y) {
 GENE_CLOCKS_INLINE IntLanes slipped(const RayFan& fan, IntLanes wall_hit, float x, float y,
                                     float share) {
     IntLanes slip{};
-    for (int lane = 0; lane < lane_count; ++lane) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
         if (wall_hit[lane] == 0) continue;
         const auto hit_x = static_cast<std::int32_t>(x + fan.dx[lane] * fan.nearest[lane]);
         const auto hit_y = static_cast<std::int32_t>(y + fan.dy[lane] * fan.nearest[lane]);
@@ -165,9 +165,9 @@ void sense_all(World& world) {
             lanes_min(lanes_max((fan.nearest - radius) * per_range, FloatLanes{}), lanes(1.0f));
         const FloatLanes obstacle = item_hit ? lanes(1.0f) : reading;
         const FloatLanes item = item_hit ? reading : lanes(1.0f);
-        senses.obstacle = std::bit_cast<std::array<float, ray_count>>(obstacle);
-        senses.item = std::bit_cast<std::array<float, ray_count>>(item);
-        senses.robot = std::bit_cast<std::array<std::int32_t, ray_count>>(who);
+        store(obstacle, senses.obstacle);
+        store(item, senses.item);
+        store(who, senses.robot);
         senses.nearest_obstacle = smallest(obstacle);
         senses.hears_robot = near > 0 && any(who >= 0);
     }
