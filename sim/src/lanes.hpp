@@ -13,8 +13,7 @@
 /// is made.
 #if defined(__x86_64__) && defined(__linux__) && defined(__OPTIMIZE__) && \
     !defined(GENE_CLOCKS_SANITIZED)
-#define GENE_CLOCKS_MULTIVERSION \
-    __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
+#define GENE_CLOCKS_MULTIVERSION __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
 #else
 #define GENE_CLOCKS_MULTIVERSION
 #endif

@@ -29,7 +29,7 @@ public:
     }
 
 private:
-    static constexpr std::int64_t lifetime_cycles = 5;
+    static constexpr std::int64_t lifetime_cycles = 8;
 
     void rebuild(std::span<const float> x_px, std::span<const float> y_px);
     void sort_into_cells(std::span<const float> x_px, std::span<const float> y_px);

@@ -89,8 +89,9 @@ private:
     neat::RandomStream radio_random_;
     World world_;
     Radio radio_;
-    std::vector<neat::Agent> agents_;  // refer to settings_
-    std::vector<std::uint32_t> order_;
+    std::vector<neat::Agent> agents_;      // refer to settings_
+    std::vector<std::uint32_t> order_;     // of broadcasts and moves, shuffled anew each cycle
+    std::vector<std::uint32_t> depleted_;  // whose active genome is to be replaced in this cycle
 
     // One entry for each robot.
     std::vector<float> inputs_;  // input_stride for each
@@ -251,13 +252,16 @@ void Simulation::spend_energy() {
         std::fill(energy_change_.begin(), energy_change_.end(),
                   -static_cast<float>(settings_.energy.decay));
     }
-    for (std::size_t i = 0; i < agents_.size(); ++i) agents_[i].spend(energy_change_[i]);
+    depleted_.clear();
+    for (std::size_t i = 0; i < agents_.size(); ++i) {
+        agents_[i].spend(energy_change_[i]);
+        if (agents_[i].is_depleted()) depleted_.push_back(static_cast<std::uint32_t>(i));
+    }
 }
 
 void Simulation::replace_depleted(std::int64_t cycle) {
-    for (neat::Agent& agent : agents_) {
-        if (!agent.is_depleted()) continue;
-        const neat::Birth birth = agent.replace(static_cast<double>(cycle));
+    for (const std::uint32_t i : depleted_) {
+        const neat::Birth birth = agents_[i].replace(static_cast<double>(cycle));
         ++result_.counters.births;
         if (birth.mated) ++result_.counters.matings;
         if (birth.mutation != neat::Mutation::none) ++result_.counters.mutations;
