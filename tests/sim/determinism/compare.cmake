@@ -1,0 +1,11 @@
+# Runs PROGRAM ARGUMENTS; its output becomes the file WRITE, or must equal the file REFERENCE.
+cmake_minimum_required(VERSION 3.25)
+execute_process(COMMAND "${PROGRAM}" ${ARGUMENTS} OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+if(WRITE)
+    file(WRITE "${WRITE}" "${output}")
+    return()
+endif()
+file(READ "${REFERENCE}" expected)
+if(NOT output STREQUAL expected)
+    message(FATAL_ERROR "Trajectories differ.\nExpected:\n${expected}\nGot:\n${output}")
+endif()
