@@ -1,9 +1,8 @@
 // Two robots, two genes: what every consumer of the protocol does.
-#include <gene_clocks/align.hpp>
-#include <gene_clocks/gene_clock.hpp>
-
 #include <cstddef>
 #include <cstdio>
+#include <gene_clocks/align.hpp>
+#include <gene_clocks/gene_clock.hpp>
 #include <vector>
 
 int main() {
@@ -17,8 +16,9 @@ int main() {
     if (!b || !(*a < *b)) return 1;
 
     std::size_t matching = 0;
-    align(std::vector{*a, *b}, std::vector{*a},
-          [&](GeneMatch match, std::size_t, std::size_t) { matching += match == GeneMatch::matching; });
+    align(std::vector{*a, *b}, std::vector{*a}, [&](GeneMatch match, std::size_t, std::size_t) {
+        matching += match == GeneMatch::matching;
+    });
     std::printf("matching genes: %zu\n", matching);
     return matching == 1 ? 0 : 1;
 }
