@@ -10,6 +10,7 @@
 #include "gene_clocks/neat/gene_clock_source.hpp"
 #include "gene_clocks/neat/timestamp_source.hpp"
 #include "radio.hpp"
+#include "recording_source.hpp"
 #include "task.hpp"
 #include "trajectory_hash.hpp"
 #include "world.hpp"
@@ -61,6 +62,23 @@ std::unique_ptr<neat::InnovationSource> make_source(const Settings& settings, Ro
         }
     }
     throw std::invalid_argument("unknown innovation source");
+}
+
+void check(const Settings& settings, const Arena& arena) {
+    const auto require = [](bool condition, const char* what) {
+        if (!condition) throw std::invalid_argument(what);
+    };
+    require(settings.world.robots >= 1, "world.robots must be at least 1");
+    require(settings.run.sample_period_cycles >= 1, "run.sample_period_cycles must be at least 1");
+    require(settings.run.cycles >= 1, "run.cycles must be at least 1");
+    require(settings.odneat.population >= 1, "odneat.population must be at least 1");
+    require(settings.radio.range_px <= settings.world.sensor_range_px,
+            "radio.range_px must not exceed world.sensor_range_px: the rays find the receivers");
+    // Then a robot that would leave the arena meets the frame before it is outside of the map.
+    const double thinnest = std::min(
+        {arena.frame_left_px, arena.frame_top_px, arena.frame_right_px, arena.frame_bottom_px});
+    require(settings.world.translation_px < thinnest + settings.world.robot_radius_px,
+            "world.translation_px must be less than the frame's thickness and the robot's radius");
 }
 
 /// One run. Every cycle goes through the same phases, each of which is one function.
@@ -123,8 +141,11 @@ Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64
     agents_.reserve(robots);
     for (std::size_t i = 0; i < robots; ++i) {
         const RobotId robot{static_cast<std::uint32_t>(i + 1)};
-        agents_.emplace_back(robot, settings_.odneat, topology,
-                             make_source(settings_, robot, genesis_count, clock_random),
+        auto source = make_source(settings_, robot, genesis_count, clock_random);
+        if (settings_.run.record_creation_times) {
+            source = std::make_unique<RecordingSource>(std::move(source), robot, result_.creations);
+        }
+        agents_.emplace_back(robot, settings_.odneat, topology, std::move(source),
                              make_stream(seed, Stream::robots, i));
     }
     order_.resize(robots);
@@ -281,6 +302,7 @@ RunResult Simulation::take_result() {
 
 std::optional<RunResult> simulate(const Settings& settings, const Arena& arena, std::uint64_t seed,
                                   RunControl* control) {
+    check(settings, arena);
     const double start = thread_cpu_seconds();
     Simulation simulation(settings, arena, seed);
     for (std::int64_t cycle = 0; cycle < settings.run.cycles; ++cycle) {

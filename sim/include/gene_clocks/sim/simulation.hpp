@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gene_clocks/innovation_number.hpp"
 #include "gene_clocks/sim/arena.hpp"
 #include "gene_clocks/sim/settings.hpp"
 
@@ -33,11 +34,19 @@ struct RunCounters {
     std::uint64_t collisions{};
 };
 
+/// When a gene was created, for studies of chronology.
+struct GeneCreation {
+    InnovationNumber mark;
+    RobotId robot{};
+    double cycle{};
+};
+
 /// The record of one run: a pure function of settings, arena and seed, timing apart.
 struct RunResult {
     std::vector<Sample> samples;
     RunCounters counters;
-    std::uint64_t trajectory_hash{};  ///< XXH3 of all positions and fitnesses at the samples
+    std::vector<GeneCreation> creations;  ///< in order; empty unless record_creation_times is set
+    std::uint64_t trajectory_hash{};      ///< XXH3 of all positions and fitnesses at the samples
     std::uint64_t robot_steps{};
     double cpu_seconds{};  ///< of the calling thread
 };
