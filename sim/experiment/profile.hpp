@@ -13,8 +13,9 @@ namespace gene_clocks::experiment {
 struct Selection {
     sim::Task task = sim::Task::navigation;
     sim::Source source = sim::Source::gene_clock;
-    std::string profile = "mended";         ///< a built-in profile, or a file ending in ".toml"
-    std::optional<std::string> parameters;  ///< a set of parameters.toml; the profile's if absent
+    std::string profile = "mended";  ///< a built-in profile, or a file ending in ".toml"
+    std::optional<std::string> parameters =
+        {};  ///< a set of parameters.toml; the profile's if absent
 };
 
 /// The names of the parameter sets: "A", "B", "C".

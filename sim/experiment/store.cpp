@@ -251,7 +251,10 @@ Store Store::open_for_writing(const std::filesystem::path& file) {
 Store Store::open_for_reading(const std::filesystem::path& file) {
     check_path(file, true);
     try {
-        auto database = std::make_unique<SQLite::Database>(file.string(), SQLite::OPEN_READONLY);
+        // Not OPEN_READONLY: that would leave the files of the write-ahead log behind. SQLite
+        // itself falls back to it where the file is write-protected.
+        auto database = std::make_unique<SQLite::Database>(file.string(), SQLite::OPEN_READWRITE);
+        database->exec("PRAGMA query_only = ON");
         check_identity(file, *database);
         return Store(std::move(database));
     } catch (const SQLite::Exception& error) {

@@ -35,9 +35,9 @@ struct Study {
 
 /// What the command line may change about a study.
 struct StudyOptions {
-    bool quick = false;                    ///< with the changes of the file's section [quick]
-    std::optional<std::int64_t> seeds;     ///< instead of the file's
-    std::vector<std::string> assignments;  ///< "key=value", over the settings of every arm
+    bool quick = false;                         ///< with the changes of the file's section [quick]
+    std::optional<std::int64_t> seeds = {};     ///< instead of the file's
+    std::vector<std::string> assignments = {};  ///< "key=value", over the settings of every arm
 };
 
 /// Reads a study. Each arm's settings are those of its profile, task and parameter set, then the

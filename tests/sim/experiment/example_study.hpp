@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "document.hpp"
+#include "store.hpp"
+#include "study.hpp"
+
+namespace gene_clocks::test {
+
+/// Two arms, "one" and "two", that differ in source; five seeds from 3 on.
+inline experiment::Study example_study() {
+    return experiment::read_study(experiment::parse_document(R"(
+name = "example"
+title = "An example"
+description = "It's about \"quotes\", too."
+seeds = 5
+first_seed = 3
+[[arm]]
+name = "one"
+task = "navigation"
+source = "gene-clock"
+[[arm]]
+name = "two"
+task = "navigation"
+source = "timestamp"
+parameters = "A"
+settings.measures.target_share = 0.5
+)",
+                                                             "example.toml"));
+}
+
+/// A run of an arm with made-up results that depend on the seed.
+inline experiment::RunRecord example_run(const experiment::Arm& arm, std::uint64_t seed) {
+    experiment::RunRecord record;
+    record.settings_hash = arm.settings_hash;
+    record.seed = seed;
+    for (int i = 0; i < 20; ++i) {
+        const double value = 0.1 * static_cast<double>(seed) + i;
+        record.result.samples.push_back({100 * i, value, value + 1, value + 2, value + 3});
+    }
+    record.result.counters = {1, 2, 3, 4, 5, 6, 7, 8};
+    record.result.counters.births = seed;
+    record.result.trajectory_hash = 0xf000'0000'0000'0000 + seed;
+    record.result.robot_steps = 123;
+    record.result.cpu_seconds = 0.25;
+    record.wall_seconds = 0.5;
+    record.finished_at = "2015-07-11T12:00:00Z";
+    record.program_version = experiment::program_version();
+    return record;
+}
+
+}  // namespace gene_clocks::test
