@@ -79,6 +79,17 @@ CREATE TABLE sample (
     controller_size REAL NOT NULL,
     PRIMARY KEY (run, cycle)
 ) STRICT, WITHOUT ROWID;
+
+-- When each gene arose, in order, for runs whose settings ask for it.
+CREATE TABLE creation (
+    run INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    position INTEGER NOT NULL,
+    counter INTEGER NOT NULL,     -- of the gene's mark
+    mark_robot INTEGER NOT NULL,  -- of the gene's mark
+    robot INTEGER NOT NULL,
+    cycle REAL NOT NULL,
+    PRIMARY KEY (run, position)
+) STRICT, WITHOUT ROWID;
 )sql";
 
 InputError unfit(const std::filesystem::path& file, const std::string& why) {
@@ -178,6 +189,34 @@ std::vector<sim::Sample> read_samples(SQLite::Database& database, std::int64_t r
                            rows.getColumn(4).getDouble()});
     }
     return samples;
+}
+
+void insert_creations(SQLite::Database& database, std::int64_t run,
+                      const std::vector<sim::GeneCreation>& creations) {
+    SQLite::Statement insert(database, "INSERT INTO creation VALUES (?, ?, ?, ?, ?, ?)");
+    std::int64_t position = 0;
+    for (const sim::GeneCreation& creation : creations) {
+        SQLite::bind(insert, run, position++, as_integer(creation.mark.counter),
+                     static_cast<std::int64_t>(creation.mark.robot),
+                     static_cast<std::int64_t>(creation.robot), creation.cycle);
+        insert.exec();
+        insert.reset();
+    }
+}
+
+std::vector<sim::GeneCreation> read_creations(SQLite::Database& database, std::int64_t run) {
+    std::vector<sim::GeneCreation> creations;
+    SQLite::Statement rows(database,
+                           "SELECT counter, mark_robot, robot, cycle FROM creation "
+                           "WHERE run = ? ORDER BY position");
+    rows.bind(1, run);
+    while (rows.executeStep()) {
+        const InnovationNumber mark{static_cast<std::uint64_t>(rows.getColumn(0).getInt64()),
+                                    static_cast<RobotId>(rows.getColumn(1).getInt64())};
+        creations.push_back({mark, static_cast<RobotId>(rows.getColumn(2).getInt64()),
+                             rows.getColumn(3).getDouble()});
+    }
+    return creations;
 }
 
 sim::RunCounters read_counters(SQLite::Statement& row) {
@@ -321,7 +360,9 @@ void Store::put_run(const RunRecord& record) {
             as_integer(counters.collisions), hexadecimal(result.trajectory_hash),
             as_integer(result.robot_steps), result.cpu_seconds, record.wall_seconds,
             record.finished_at, record.program_version);
-    insert_samples(*database_, database_->getLastInsertRowid(), result.samples);
+    const std::int64_t run = database_->getLastInsertRowid();
+    insert_samples(*database_, run, result.samples);
+    insert_creations(*database_, run, result.creations);
     transaction.commit();
 }
 
@@ -386,7 +427,9 @@ std::vector<RunRecord> Store::runs(const StoredStudy& study, const StoredArm& ar
             std::stoull(rows.getColumn("trajectory_hash").getString(), nullptr, 16);
         record.result.robot_steps = unsigned_column(rows, "robot_steps");
         record.result.cpu_seconds = rows.getColumn("cpu_seconds").getDouble();
-        record.result.samples = read_samples(*database_, rows.getColumn("id").getInt64());
+        const std::int64_t run = rows.getColumn("id").getInt64();
+        record.result.samples = read_samples(*database_, run);
+        record.result.creations = read_creations(*database_, run);
         record.wall_seconds = rows.getColumn("wall_seconds").getDouble();
         record.finished_at = rows.getColumn("finished_at").getString();
         record.program_version = rows.getColumn("program_version").getString();

@@ -114,8 +114,8 @@ TEST(PaperArena, HasTheFrameAndThe18Bars) {
     EXPECT_EQ(arena.walls.size(), 18U);
     for (const sim::ThickSegment& wall : arena.walls) {
         EXPECT_EQ(wall.thickness_px, 7.5);
-        // At plus or minus 45 degrees, to the pixel.
-        EXPECT_NEAR(std::abs(wall.x2_px - wall.x1_px), std::abs(wall.y2_px - wall.y1_px), 1.0);
+        // At plus or minus 45 degrees.
+        EXPECT_EQ(std::abs(wall.x2_px - wall.x1_px), std::abs(wall.y2_px - wall.y1_px));
     }
 }
 

@@ -42,6 +42,8 @@ inline experiment::RunRecord example_run(const experiment::Arm& arm, std::uint64
     }
     record.result.counters = {1, 2, 3, 4, 5, 6, 7, 8};
     record.result.counters.births = seed;
+    record.result.creations = {{{seed, RobotId{7}}, RobotId{7}, 0.5},
+                               {{~seed, RobotId{0xffff'fffe}}, RobotId{2}, 1.5}};
     record.result.trajectory_hash = 0xf000'0000'0000'0000 + seed;
     record.result.robot_steps = 123;
     record.result.cpu_seconds = 0.25;

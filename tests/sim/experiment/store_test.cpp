@@ -89,6 +89,15 @@ TEST_F(StoreTest, KeepsStudiesAndRuns) {
                           c.messages_sent, c.messages_received, c.genomes_accepted, c.collisions};
     };
     EXPECT_EQ(counters(run.result.counters), counters(expected.result.counters));
+    const auto creations = [](const sim::RunResult& result) {
+        std::vector<std::tuple<std::uint64_t, RobotId, RobotId, double>> all;
+        for (const sim::GeneCreation& c : result.creations) {
+            all.emplace_back(c.mark.counter, c.mark.robot, c.robot, c.cycle);
+        }
+        return all;
+    };
+    EXPECT_EQ(creations(run.result).size(), 2U);
+    EXPECT_EQ(creations(run.result), creations(expected.result));
     ASSERT_EQ(run.result.samples.size(), expected.result.samples.size());
     for (std::size_t i = 0; i < run.result.samples.size(); ++i) {
         const auto values = [](const sim::Sample& s) {
