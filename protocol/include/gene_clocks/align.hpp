@@ -1,20 +1,27 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <iterator>
-#include <ranges>
+
+#include "gene_clocks/kernel.h"
+#include "gene_clocks/marks.hpp"
 
 namespace gene_clocks {
 
 /// How a gene stands in the alignment of two genomes (paper, section 3.2).
 enum class GeneMatch : std::uint8_t {
-    matching,         ///< the mark is in both genomes
-    disjoint_first,   ///< only in the first, below the second's last mark
-    disjoint_second,  ///< only in the second, below the first's last mark
-    excess_first,     ///< only in the first, beyond the second's last mark
-    excess_second,    ///< only in the second, beyond the first's last mark
+    /// The mark is in both genomes.
+    matching = kernel::gene_clocks_matching,
+    /// Only in the first, below the second's last mark.
+    disjoint_first = kernel::gene_clocks_disjoint_first,
+    /// Only in the second, below the first's last mark.
+    disjoint_second = kernel::gene_clocks_disjoint_second,
+    /// Only in the first, beyond the second's last mark.
+    excess_first = kernel::gene_clocks_excess_first,
+    /// Only in the second, beyond the first's last mark.
+    excess_second = kernel::gene_clocks_excess_second,
 };
 
 /// Aligns two genomes by their marks in one linear pass, without allocation.
@@ -23,34 +30,18 @@ enum class GeneMatch : std::uint8_t {
 /// `visit(match, i, j)` is called once for every gene, in mark order, with the gene's index: both
 /// indices are valid for `matching`, else only the one on the gene's own side. Excess lies on one
 /// side only: with the genome whose *last mark* is larger, which need not be the longer one.
-///
-template <std::ranges::forward_range First, std::ranges::forward_range Second, class Visit,
-          class Projection = std::identity>
+template <class First, class Second, class Visit, class Projection = std::identity>
+requires MarkedGenes<First, Projection> && MarkedGenes<Second, Projection> &&
+    std::same_as<MarkOf<First, Projection>, MarkOf<Second, Projection>> &&
+    std::invocable<Visit&, GeneMatch, std::size_t, std::size_t>
 constexpr void align(const First& first, const Second& second, Visit visit,
                      Projection projection = {}) {
-    auto a = std::ranges::begin(first);
-    auto b = std::ranges::begin(second);
-    const auto a_end = std::ranges::end(first);
-    const auto b_end = std::ranges::end(second);
-    std::size_t i = 0;
-    std::size_t j = 0;
-    while (a != a_end && b != b_end) {
-        const auto& mark_a = std::invoke(projection, *a);
-        const auto& mark_b = std::invoke(projection, *b);
-        if (mark_a == mark_b) {
-            visit(GeneMatch::matching, i++, j++);
-            ++a;
-            ++b;
-        } else if (mark_a < mark_b) {
-            visit(GeneMatch::disjoint_first, i++, j);
-            ++a;
-        } else {
-            visit(GeneMatch::disjoint_second, i, j++);
-            ++b;
-        }
-    }
-    for (; a != a_end; ++a) visit(GeneMatch::excess_first, i++, j);
-    for (; b != b_end; ++b) visit(GeneMatch::excess_second, i, j++);
+    detail::Marks<First, Projection> a{first, projection};
+    detail::Marks<Second, Projection> b{second, projection};
+    auto report = [&visit](kernel::gene_clocks_match match, std::size_t i, std::size_t j) {
+        visit(static_cast<GeneMatch>(match), i, j);
+    };
+    kernel::gene_clocks_align(a, a.size(), b, b.size(), report);
 }
 
 }  // namespace gene_clocks

@@ -2,11 +2,14 @@
 
 #include <concepts>
 #include <cstdint>
+#include <cstdlib>
+#include <functional>
 #include <limits>
 #include <optional>
 
 #include "gene_clocks/innovation_number.hpp"
 #include "gene_clocks/kernel.h"
+#include "gene_clocks/marks.hpp"
 
 namespace gene_clocks {
 
@@ -27,6 +30,9 @@ struct BasicMintedRange {
 /// Mint a mark for every new gene; send `stamp()` with every genome; `observe()` the stamp of
 /// every genome received, before any of its genes is used. That is the whole protocol.
 ///
+/// A robot that may crash and come back writes `durable_needed()` to stable storage before
+/// anything leaves it, and goes on with `restart()`.
+///
 /// No allocation, no exceptions, no I/O. Not thread-safe: one owner.
 template <std::unsigned_integral Counter>
 class BasicGeneClock {
@@ -42,29 +48,47 @@ public:
         Counter window = std::numeric_limits<Counter>::max();  ///< largest admitted leap
     };
 
-    /// All that a restart needs. Invariant: next <= durable.
+    /// The changing part of a clock. Invariant: 1 <= next <= durable <= limits.maximum.
     struct State {
         Counter next{};     ///< the smallest counter that this robot may still use
         Counter durable{};  ///< on stable storage before anything leaves the robot
         friend constexpr bool operator==(State, State) = default;
     };
 
-    /// A fresh clock that starts above the genesis marks 1…genesis_count.
-    /// Preconditions: robot != genesis_robot, genesis_count < limits.maximum.
+    /// A fresh clock that starts above the genesis marks 1…genesis_count. Aborts where its
+    /// preconditions do not hold: robot != genesis_robot, genesis_count < limits.maximum.
     constexpr explicit BasicGeneClock(RobotId robot, Counter genesis_count = 0, Limits limits = {})
-        : limits_{limits.maximum, limits.block, limits.window},
-          state_{static_cast<Counter>(genesis_count + 1), static_cast<Counter>(genesis_count + 1)},
-          robot_{robot} {}
+        : BasicGeneClock{robot, limits} {
+        if (robot == genesis_robot ||
+            !kernel::gene_clocks_start(&state_, &limits_, genesis_count)) {
+            std::abort();
+        }
+    }
 
-    /// A clock that goes on from a stored state; nullopt where the state breaks its invariant.
-    static constexpr std::optional<BasicGeneClock> from_state(RobotId robot, State state,
-                                                              Limits limits = {}) {
-        if (robot == genesis_robot || state.next == 0 || state.next > state.durable ||
-            state.durable > limits.maximum) {
+    /// A clock that goes on exactly where another one of this robot was left, as in a snapshot;
+    /// nullopt where `state` breaks its invariant. After a crash, `restart()` is the right door.
+    [[nodiscard]] static constexpr std::optional<BasicGeneClock> from_state(RobotId robot,
+                                                                            State state,
+                                                                            Limits limits = {}) {
+        BasicGeneClock clock{robot, limits};
+        if (robot == genesis_robot || !kernel::gene_clocks_restore(&clock.state_, &clock.limits_,
+                                                                   state.next, state.durable)) {
             return std::nullopt;
         }
-        BasicGeneClock clock{robot, 0, limits};
-        clock.state_ = {state.next, state.durable};
+        return clock;
+    }
+
+    /// A clock that goes on after a crash, from the last `durable_needed()` that reached stable
+    /// storage: no mark is issued twice. Genes kept across the crash whose counter is not below
+    /// `stored` must be dropped. Nullopt where no clock with these limits can have stored it.
+    [[nodiscard]] static constexpr std::optional<BasicGeneClock> restart(RobotId robot,
+                                                                         Counter stored,
+                                                                         Limits limits = {}) {
+        BasicGeneClock clock{robot, limits};
+        if (robot == genesis_robot ||
+            !kernel::gene_clocks_restart(&clock.state_, &clock.limits_, stored)) {
+            return std::nullopt;
+        }
         return clock;
     }
 
@@ -85,7 +109,17 @@ public:
     /// Takes the maximum with a received stamp. False where the stamp lies beyond the maximum or
     /// the admission window: then nothing changes and the message must be dropped whole.
     [[nodiscard]] constexpr bool observe(StampType stamp) {
-        return kernel::gene_clocks_observe(&state_, &limits_, stamp.value) != 0;
+        return kernel::gene_clocks_observe(&state_, &limits_, stamp.value);
+    }
+
+    /// The same for a message whose genes may be forged or damaged: false also where a gene does
+    /// not lie below the stamp, as every gene of an honest message does. O(genes).
+    template <class Genes, class Projection = std::identity>
+    requires MarkedGenes<Genes, Projection> && std::same_as<MarkOf<Genes, Projection>, Mark>
+    [[nodiscard]] constexpr bool observe(StampType stamp, const Genes& genes,
+                                         Projection projection = {}) {
+        detail::Marks<Genes, Projection> marks{genes, projection};
+        return kernel::gene_clocks_covers(stamp.value, marks, marks.size()) && observe(stamp);
     }
 
     /// What to send with every message. Every mark this robot knows lies below it.
@@ -99,8 +133,11 @@ public:
     [[nodiscard]] constexpr RobotId robot() const { return robot_; }
 
 private:
+    constexpr BasicGeneClock(RobotId robot, Limits limits)
+        : limits_{limits.maximum, limits.block, limits.window}, robot_{robot} {}
+
     kernel::gene_clocks_limits<Counter> limits_;
-    kernel::gene_clocks_state<Counter> state_;
+    kernel::gene_clocks_state<Counter> state_{};
     RobotId robot_;
 };
 using GeneClock = BasicGeneClock<std::uint64_t>;

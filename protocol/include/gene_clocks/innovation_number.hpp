@@ -36,20 +36,19 @@ struct BasicInnovationNumber {
 
     friend constexpr bool operator==(BasicInnovationNumber, BasicInnovationNumber) = default;
 
+    friend constexpr bool operator<(BasicInnovationNumber a, BasicInnovationNumber b) {
+        return kernel::gene_clocks_less(a.kernel_mark(), b.kernel_mark());
+    }
     friend constexpr std::strong_ordering operator<=>(BasicInnovationNumber a,
                                                       BasicInnovationNumber b) {
-        if (less(a, b)) return std::strong_ordering::less;
-        if (less(b, a)) return std::strong_ordering::greater;
+        if (a < b) return std::strong_ordering::less;
+        if (b < a) return std::strong_ordering::greater;
         return std::strong_ordering::equal;
     }
-    friend constexpr bool operator<(BasicInnovationNumber a, BasicInnovationNumber b) {
-        return less(a, b);
-    }
 
-private:
-    static constexpr bool less(BasicInnovationNumber a, BasicInnovationNumber b) {
-        return kernel::gene_clocks_less(a.counter, static_cast<std::uint32_t>(a.robot), b.counter,
-                                        static_cast<std::uint32_t>(b.robot)) != 0;
+    /// The same mark as the kernel and C firmware have it.
+    [[nodiscard]] constexpr kernel::gene_clocks_mark<Counter> kernel_mark() const {
+        return {counter, static_cast<std::uint32_t>(robot)};
     }
 };
 using InnovationNumber = BasicInnovationNumber<std::uint64_t>;
