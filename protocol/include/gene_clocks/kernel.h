@@ -19,11 +19,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* clang-format off */
 #ifdef __cplusplus
 #define GENE_CLOCKS_TYPE template <class gene_clocks_counter>
-#define GENE_CLOCKS_FUNCTION             \
-    template <class gene_clocks_counter> \
-    constexpr
+#define GENE_CLOCKS_FUNCTION template <class gene_clocks_counter> constexpr
 #define GENE_CLOCKS_OF(type) type<gene_clocks_counter>
 #define GENE_CLOCKS_OVER_MARKS constexpr
 #define GENE_CLOCKS_MARKS auto&   /* anything that marks[index] reads a mark from */
@@ -39,6 +38,7 @@ namespace gene_clocks::kernel {
 #define GENE_CLOCKS_VISITOR const struct gene_clocks_visitor*
 typedef uint64_t gene_clocks_counter;
 #endif
+/* clang-format on */
 
 /* ---- Types ---------------------------------------------------------------------------------- */
 
@@ -144,7 +144,7 @@ struct gene_clocks_visitor {
 /* ---- Order ---------------------------------------------------------------------------------- */
 
 /* Total order on marks: counter first, then robot (paper, section 3.1). */
-/*@ // Coq: mark_lt
+/*@ // Coq: Mark.mark_lt
     assigns \nothing;
     ensures \result <==> below(a, b); */
 GENE_CLOCKS_FUNCTION bool gene_clocks_less(GENE_CLOCKS_OF(gene_clocks_mark) a,
@@ -152,7 +152,7 @@ GENE_CLOCKS_FUNCTION bool gene_clocks_less(GENE_CLOCKS_OF(gene_clocks_mark) a,
     return a.counter != b.counter ? a.counter < b.counter : a.robot < b.robot;
 }
 
-/*@ // Coq: mark_eqb
+/*@ // Coq: Mark.mark_eqb
     assigns \nothing;
     ensures \result <==> same(a, b); */
 GENE_CLOCKS_FUNCTION bool gene_clocks_equal(GENE_CLOCKS_OF(gene_clocks_mark) a,
@@ -181,11 +181,11 @@ GENE_CLOCKS_FUNCTION bool gene_clocks_restore(GENE_CLOCKS_OF(gene_clocks_state) 
 
 /* Starts a clock above the genesis marks 1 ... genesis_count. Returns false, and changes nothing,
  * where these leave no counter to mint. */
-/*@ // Coq: init
+/*@ // Coq: Clock.start
     requires \valid(state) && \valid_read(limits) && \separated(state, limits);
     assigns *state;
     ensures \result <==> genesis_count < limits->maximum;
-    ensures \result ==> usable(state, limits) && state->next == genesis_count + 1;
+    ensures \result ==> usable(state, limits) && state->next == state->durable == genesis_count + 1;
     ensures !\result ==> *state == \old(*state); */
 GENE_CLOCKS_FUNCTION bool gene_clocks_start(GENE_CLOCKS_OF(gene_clocks_state) * state,
                                             const GENE_CLOCKS_OF(gene_clocks_limits) * limits,
@@ -197,7 +197,7 @@ GENE_CLOCKS_FUNCTION bool gene_clocks_start(GENE_CLOCKS_OF(gene_clocks_state) * 
 
 /* Goes on after a crash, of which only the durable counter is left: no counter below it is used
  * again. Returns false, and changes nothing, where no clock with these limits stored it. */
-/*@ // Coq: step_restart
+/*@ // Coq: Clock.restart
     requires \valid(state) && \valid_read(limits) && \separated(state, limits);
     assigns *state;
     ensures \result <==> 1 <= stored <= limits->maximum;
@@ -210,7 +210,7 @@ GENE_CLOCKS_FUNCTION bool gene_clocks_restart(GENE_CLOCKS_OF(gene_clocks_state) 
 }
 
 /* Raises `durable` to cover `next`, a block ahead where there is room. */
-/*@ // Coq: step_reserve
+/*@ // Coq: Clock.reserve
     requires \valid(state) && \valid_read(limits) && \separated(state, limits);
     requires state->next <= limits->maximum;
     assigns state->durable;
@@ -226,7 +226,7 @@ GENE_CLOCKS_FUNCTION void gene_clocks_reserve(GENE_CLOCKS_OF(gene_clocks_state) 
 
 /* Takes `count` consecutive counters, all or none. Returns true and the first of them, or false
  * where fewer are left, and changes nothing: a clock never wraps. */
-/*@ // Coq: step_mint
+/*@ // Coq: Clock.mint
     requires usable(state, limits) && \valid(first);
     requires \separated(state, first) && \separated(limits, first);
     assigns *state, *first;
@@ -255,7 +255,7 @@ GENE_CLOCKS_FUNCTION bool gene_clocks_mint(GENE_CLOCKS_OF(gene_clocks_state) * s
 /* Reception of a stamp, the sender's next unused counter: maximum, no increment. Returns false
  * where the stamp lies beyond the maximum or the window, and changes nothing: the message must
  * then be dropped whole. */
-/*@ // Coq: step_observe
+/*@ // Coq: Clock.observe
     requires usable(state, limits);
     assigns *state;
     ensures usable(state, limits);
@@ -283,7 +283,7 @@ GENE_CLOCKS_FUNCTION bool gene_clocks_observe(GENE_CLOCKS_OF(gene_clocks_state) 
 
 /* Whether every gene lies below the stamp that came with it, as in every message of a robot that
  * keeps the protocol. To be asked before gene_clocks_observe where a message may be forged. */
-/*@ // Coq: well_formed
+/*@ // Coq: Protocol.credible
     requires readable(genome, size);
     assigns \nothing;
     ensures \result <==> \forall integer k; 0 <= k < size ==> genome[k].counter < stamp; */
@@ -307,13 +307,19 @@ constexpr void gene_clocks_visit(auto& visit, enum gene_clocks_match match, size
     visit(match, first, second);
 }
 #else
-/*@ ghost size_t gene_clocks_visited_first;  // genes of either genome */
-/*@ ghost size_t gene_clocks_visited_second; // that were visited so far */
+/*@ ghost const struct gene_clocks_mark* aligned_first;  */ /* what is being aligned */
+/*@ ghost const struct gene_clocks_mark* aligned_second; */
+/*@ ghost size_t aligned_first_size;                     */
+/*@ ghost size_t aligned_second_size;                    */
+/*@ ghost size_t visited_first;                          */ /* genes visited so far */
+/*@ ghost size_t visited_second;                         */
 /*@ requires \valid_read(visit);
-    requires in_turn: first == gene_clocks_visited_first && second == gene_clocks_visited_second;
-    assigns gene_clocks_visited_first, gene_clocks_visited_second;
-    ensures gene_clocks_visited_first == first + in_first(match);
-    ensures gene_clocks_visited_second == second + in_second(match); */
+    requires in_turn: first == visited_first && second == visited_second;
+    requires as_told: stands(match, aligned_first, aligned_first_size,
+                             aligned_second, aligned_second_size, first, second);
+    assigns visited_first, visited_second;
+    ensures visited_first == first + in_first(match);
+    ensures visited_second == second + in_second(match); */
 static inline void gene_clocks_visit(const struct gene_clocks_visitor* visit,
                                      enum gene_clocks_match match, size_t first, size_t second) {
     visit->gene(visit->context, match, first, second);
@@ -322,62 +328,53 @@ static inline void gene_clocks_visit(const struct gene_clocks_visitor* visit,
 
 /* Visits every gene of two sorted genomes once, in mark order, and says how it stands. The index
  * on the other side is the number of genes of the other genome that lie before it. */
-/*@ // Coq: align
+/*@ // Coq: Alignment.align
     requires readable(first, first_size) && sorted(first, first_size);
     requires readable(second, second_size) && sorted(second, second_size);
     requires \valid_read(visit);
-    assigns gene_clocks_visited_first, gene_clocks_visited_second;
-    ensures each_once: gene_clocks_visited_first == first_size;
-    ensures each_once: gene_clocks_visited_second == second_size; */
+    assigns aligned_first \from first;
+    assigns aligned_second \from second;
+    assigns aligned_first_size, aligned_second_size;
+    assigns visited_first, visited_second;
+    ensures each_once: visited_first == first_size;
+    ensures each_once: visited_second == second_size; */
 GENE_CLOCKS_OVER_MARKS void gene_clocks_align(GENE_CLOCKS_MARKS first, size_t first_size,
                                               GENE_CLOCKS_MARKS second, size_t second_size,
                                               GENE_CLOCKS_VISITOR visit) {
     size_t i = 0;
     size_t j = 0;
-    /*@ ghost gene_clocks_visited_first = gene_clocks_visited_second = 0; */
-    /*@ loop invariant gene_clocks_visited_first == i && gene_clocks_visited_second == j;
+    /*@ ghost aligned_first = first, aligned_first_size = first_size; */
+    /*@ ghost aligned_second = second, aligned_second_size = second_size; */
+    /*@ ghost visited_first = visited_second = 0; */
+    /*@ loop invariant visited_first == i && visited_second == j;
         loop invariant split(first, first_size, second, second_size, i, j);
-        loop assigns i, j, gene_clocks_visited_first, gene_clocks_visited_second;
+        loop assigns i, j, visited_first, visited_second;
         loop variant first_size - i + second_size - j; */
     while (i < first_size && j < second_size) {
         if (gene_clocks_equal(first[i], second[j])) {
-            /*@ assert stands(gene_clocks_matching,
-                              first, first_size, second, second_size, i, j); */
             gene_clocks_visit(visit, gene_clocks_matching, i, j);
             ++i;
             ++j;
         } else if (gene_clocks_less(first[i], second[j])) {
-            /*@ assert stands(gene_clocks_disjoint_first,
-                              first, first_size, second, second_size, i, j); */
             gene_clocks_visit(visit, gene_clocks_disjoint_first, i, j);
             ++i;
         } else {
-            /*@ assert stands(gene_clocks_disjoint_second,
-                              first, first_size, second, second_size, i, j); */
             gene_clocks_visit(visit, gene_clocks_disjoint_second, i, j);
             ++j;
         }
     }
-    /*@ loop invariant gene_clocks_visited_first == i && gene_clocks_visited_second == j;
+    /*@ loop invariant visited_first == i && visited_second == j;
         loop invariant split(first, first_size, second, second_size, i, j);
         loop invariant i < first_size ==> j == second_size;
-        loop assigns i, gene_clocks_visited_first, gene_clocks_visited_second;
+        loop assigns i, visited_first, visited_second;
         loop variant first_size - i; */
-    for (; i < first_size; ++i) {
-        /*@ assert stands(gene_clocks_excess_first,
-                          first, first_size, second, second_size, i, j); */
-        gene_clocks_visit(visit, gene_clocks_excess_first, i, j);
-    }
-    /*@ loop invariant gene_clocks_visited_first == i == first_size;
-        loop invariant gene_clocks_visited_second == j;
+    for (; i < first_size; ++i) gene_clocks_visit(visit, gene_clocks_excess_first, i, j);
+    /*@ loop invariant visited_first == i == first_size;
+        loop invariant visited_second == j;
         loop invariant split(first, first_size, second, second_size, i, j);
-        loop assigns j, gene_clocks_visited_first, gene_clocks_visited_second;
+        loop assigns j, visited_first, visited_second;
         loop variant second_size - j; */
-    for (; j < second_size; ++j) {
-        /*@ assert stands(gene_clocks_excess_second,
-                          first, first_size, second, second_size, i, j); */
-        gene_clocks_visit(visit, gene_clocks_excess_second, i, j);
-    }
+    for (; j < second_size; ++j) gene_clocks_visit(visit, gene_clocks_excess_second, i, j);
 }
 
 #ifdef __cplusplus
