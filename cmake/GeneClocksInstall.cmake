@@ -30,5 +30,5 @@ configure_file("${CMAKE_CURRENT_LIST_DIR}/gene-clocks-protocol.pc.in" gene-clock
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/gene-clocks-protocol.pc"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/pkgconfig" COMPONENT protocol)
 
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
+install(FILES "${CMAKE_CURRENT_LIST_DIR}/../LICENSE"
     DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT protocol)

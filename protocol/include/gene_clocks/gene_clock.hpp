@@ -58,7 +58,7 @@ public:
     /// A fresh clock that starts above the genesis marks 1…genesis_count. Aborts where its
     /// preconditions do not hold: robot != genesis_robot, genesis_count < limits.maximum.
     constexpr explicit BasicGeneClock(RobotId robot, Counter genesis_count = 0, Limits limits = {})
-        : BasicGeneClock{robot, limits} {
+        : BasicGeneClock{limits, robot} {
         if (robot == genesis_robot ||
             !kernel::gene_clocks_start(&state_, &limits_, genesis_count)) {
             std::abort();
@@ -70,7 +70,7 @@ public:
     [[nodiscard]] static constexpr std::optional<BasicGeneClock> from_state(RobotId robot,
                                                                             State state,
                                                                             Limits limits = {}) {
-        BasicGeneClock clock{robot, limits};
+        BasicGeneClock clock{limits, robot};
         if (robot == genesis_robot || !kernel::gene_clocks_restore(&clock.state_, &clock.limits_,
                                                                    state.next, state.durable)) {
             return std::nullopt;
@@ -84,7 +84,7 @@ public:
     [[nodiscard]] static constexpr std::optional<BasicGeneClock> restart(RobotId robot,
                                                                          Counter stored,
                                                                          Limits limits = {}) {
-        BasicGeneClock clock{robot, limits};
+        BasicGeneClock clock{limits, robot};
         if (robot == genesis_robot ||
             !kernel::gene_clocks_restart(&clock.state_, &clock.limits_, stored)) {
             return std::nullopt;
@@ -94,9 +94,9 @@ public:
 
     /// The mark of one new gene; nullopt at exhaustion, and nothing changes.
     [[nodiscard]] constexpr std::optional<Mark> mint() {
-        const auto marks = mint(1);
-        if (!marks) return std::nullopt;
-        return marks->first;
+        Counter first{};
+        if (!kernel::gene_clocks_mint(&state_, &limits_, Counter{1}, &first)) return std::nullopt;
+        return Mark{first, robot_};
     }
 
     /// `count` consecutive marks, all or none (add-neuron needs three at once).
@@ -133,7 +133,7 @@ public:
     [[nodiscard]] constexpr RobotId robot() const { return robot_; }
 
 private:
-    constexpr BasicGeneClock(RobotId robot, Limits limits)
+    constexpr BasicGeneClock(Limits limits, RobotId robot)
         : limits_{limits.maximum, limits.block, limits.window}, robot_{robot} {}
 
     kernel::gene_clocks_limits<Counter> limits_;
