@@ -1,5 +1,6 @@
 cmake_minimum_required(VERSION 3.25)
-# VERSION, as CMake has it, is also what the citation and the newest entry of the change log say.
+# VERSION, as CMake has it, is also what the protocol has by itself, and what the citation and the
+# newest entry of the change log say.
 file(STRINGS "${SOURCE}/CITATION.cff" cited REGEX "^version:")
 if(NOT cited MATCHES "^version: \"?${VERSION}\"?$")
     message(SEND_ERROR "CITATION.cff has '${cited}', the build has ${VERSION}")
@@ -8,4 +9,8 @@ file(STRINGS "${SOURCE}/CHANGELOG.md" entries REGEX "^## ")
 list(GET entries 0 newest)
 if(NOT newest MATCHES "^## ${VERSION}( |$)")
     message(SEND_ERROR "CHANGELOG.md's newest entry is '${newest}', the build has ${VERSION}")
+endif()
+file(STRINGS "${SOURCE}/protocol/CMakeLists.txt" alone REGEX "project\\(GeneClocks VERSION")
+if(NOT alone MATCHES "VERSION ${VERSION} ")
+    message(SEND_ERROR "protocol/CMakeLists.txt has '${alone}', the build has ${VERSION}")
 endif()
