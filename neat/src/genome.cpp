@@ -98,7 +98,9 @@ std::size_t Topology::insert(NeuronGene neuron) {
     const auto place = std::upper_bound(
         neurons.begin(), neurons.end(), neuron.mark,
         [](InnovationNumber mark, const NeuronGene& gene) { return mark < gene.mark; });
-    return static_cast<std::size_t>(neurons.insert(place, neuron) - neurons.begin());
+    const auto index = static_cast<std::size_t>(place - neurons.begin());
+    neurons.insert(place, neuron);
+    return index;
 }
 
 std::size_t Topology::insert(InnovationNumber mark, ConnectionEnds ends) {
