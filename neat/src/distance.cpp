@@ -1,7 +1,7 @@
 #include "gene_clocks/neat/distance.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
@@ -10,41 +10,48 @@
 namespace gene_clocks::neat {
 namespace {
 
-/// What matching genes contribute to W.
+/// What matching genes contribute to W. Eight partial sums, added up in a fixed order, so that
+/// vector registers of any width give the same result.
 struct WeightTerm {
-    float sum = 0.0f;    // of |Δw| over genes enabled in both
-    float count = 0.0f;  // of genes enabled in both
+    static constexpr std::size_t lanes = 8;
+    using Lanes = Eigen::Array<float, lanes, 1>;
+
+    static float total(const Lanes& x) {
+        const Eigen::Array4f half = x.head<4>() + x.tail<4>();
+        return (half(0) + half(1)) + (half(2) + half(3));
+    }
+    float sum() const { return total(sums); }
+    float mean() const { return total(sums) / std::max(total(counts), 1.0f); }
+
+    Lanes sums = Lanes::Zero();    // of |Δw| over genes enabled in both
+    Lanes counts = Lanes::Zero();  // of genes enabled in both
 };
 
 /// Adds genes [begin, end) of both genomes, which match one to one. Stops after a block of eight
-/// once the sum is above `enough`. Eight partial sums, added in a fixed order, so that the compiler
-/// may use vector registers of any width and the result stays the same.
-void add_matching(const Genome& first, const Genome& second, std::size_t begin, std::size_t end,
-                  float enough, WeightTerm& term) {
-    constexpr std::size_t lanes = 8;
+/// once `is_enough`; returns whether it did. Terms only grow, so that stopping or not changes no
+/// sum that is not enough.
+template <class IsEnough>
+bool add_matching(const Genome& first, const Genome& second, std::size_t begin, std::size_t end,
+                  WeightTerm& term, IsEnough is_enough) {
+    constexpr std::size_t lanes = WeightTerm::lanes;
+    using Lanes = WeightTerm::Lanes;
     const float* weights_a = first.weights.data();
     const float* weights_b = second.weights.data();
     const float* enabled_a = first.enabled.data();
     const float* enabled_b = second.enabled.data();
-    const auto total = [](const std::array<float, lanes>& x) {
-        return ((x[0] + x[4]) + (x[1] + x[5])) + ((x[2] + x[6]) + (x[3] + x[7]));
-    };
-    for (std::size_t i = begin; i < end && !(term.sum >= enough); i += lanes) {
-        std::array<float, lanes> differences{};
-        std::array<float, lanes> both{};
-        const std::size_t size = std::min(lanes, end - i);
-        const auto compare = [&](std::size_t lane) {
-            both[lane] = enabled_a[i + lane] * enabled_b[i + lane];
-            differences[lane] = std::abs(weights_a[i + lane] - weights_b[i + lane]) * both[lane];
-        };
-        if (size == lanes) {
-            for (std::size_t lane = 0; lane < lanes; ++lane) compare(lane);
-        } else {
-            for (std::size_t lane = 0; lane < size; ++lane) compare(lane);
-        }
-        term.sum += total(differences);
-        term.count += total(both);
+    std::size_t i = begin;
+    for (; i + lanes <= end; i += lanes) {
+        const Lanes both = Lanes::Map(enabled_a + i) * Lanes::Map(enabled_b + i);
+        term.sums += (Lanes::Map(weights_a + i) - Lanes::Map(weights_b + i)).abs() * both;
+        term.counts += both;
+        if (is_enough(term)) return true;
     }
+    for (Eigen::Index lane = 0; i < end; ++i, ++lane) {
+        const float both = enabled_a[i] * enabled_b[i];
+        term.sums(lane) += std::abs(weights_a[i] - weights_b[i]) * both;
+        term.counts(lane) += both;
+    }
+    return is_enough(term);
 }
 
 /// Length of the common beginning of two lists of marks.
@@ -74,20 +81,20 @@ float distance(const Genome& first, const Genome& second, const DistanceMeasure&
     // As a sum, their weight term alone already decides most comparisons with a threshold.
     const std::size_t initial =
         std::min(topology_a.initial_connections, topology_b.initial_connections);
-    const float enough = is_sum && measure.c_weight > 0.0f ? limit / measure.c_weight
-                                                           : std::numeric_limits<float>::infinity();
+    const bool may_stop = is_sum && limit < std::numeric_limits<float>::infinity();
+    const auto is_enough = [&](const WeightTerm& term) {
+        return may_stop && measure.c_weight * term.sum() >= limit;
+    };
     WeightTerm weight;
-    add_matching(first, second, 0, initial, enough, weight);
-    if (weight.sum >= enough) return limit;
+    if (add_matching(first, second, 0, initial, weight, is_enough)) return limit;
 
     const bool same_topology = &topology_a == &topology_b;
     const std::size_t prefix =
         same_topology ? first.connections() : common_prefix(topology_a, topology_b, initial);
-    add_matching(first, second, initial, prefix, enough, weight);
-    if (weight.sum >= enough) return limit;
+    if (add_matching(first, second, initial, prefix, weight, is_enough)) return limit;
 
-    float disjoint = 0.0f;
-    float excess = 0.0f;
+    std::size_t disjoint = 0;
+    std::size_t excess = 0;
     if (!same_topology) {
         const auto tail = [prefix](const std::vector<InnovationNumber>& marks) {
             return std::span(marks).subspan(prefix);
@@ -97,26 +104,26 @@ float distance(const Genome& first, const Genome& second, const DistanceMeasure&
                   switch (match) {
                       case GeneMatch::matching: {
                           const float both = first.enabled[prefix + i] * second.enabled[prefix + j];
-                          weight.sum += both * std::abs(first.weights[prefix + i] -
-                                                        second.weights[prefix + j]);
-                          weight.count += both;
+                          weight.sums(0) += both * std::abs(first.weights[prefix + i] -
+                                                            second.weights[prefix + j]);
+                          weight.counts(0) += both;
                           break;
                       }
                       case GeneMatch::disjoint_first:
                       case GeneMatch::disjoint_second:
-                          disjoint += 1.0f;
+                          ++disjoint;
                           break;
                       case GeneMatch::excess_first:
                       case GeneMatch::excess_second:
-                          excess += 1.0f;
+                          ++excess;
                           break;
                   }
               });
     }
     const float size = static_cast<float>(std::max(first.connections(), second.connections()));
-    const float difference = is_sum ? weight.sum : weight.sum / std::max(weight.count, 1.0f);
-    return measure.c_excess * excess / size + measure.c_disjoint * disjoint / size +
-           measure.c_weight * difference;
+    return measure.c_excess * static_cast<float>(excess) / size +
+           measure.c_disjoint * static_cast<float>(disjoint) / size +
+           measure.c_weight * (is_sum ? weight.sum() : weight.mean());
 }
 
 }  // namespace gene_clocks::neat
