@@ -5,13 +5,14 @@
 namespace gene_clocks::neat {
 
 void TabuList::add(std::shared_ptr<const Genome> genome) {
+    if (lifetime_receptions_ <= 0) return;
     const auto listed = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
         return entry.genome->id == genome->id;
     });
     if (listed != entries_.end()) {
         listed->receptions_left = lifetime_receptions_;
     } else {
-        const Comparison with_itself{genome->id, true};
+        const Comparison with_itself{genome->id, 0.0f < threshold_};
         Entry entry{std::move(genome), lifetime_receptions_, {}};
         entry.compared.fill(with_itself);
         entries_.push_back(std::move(entry));
