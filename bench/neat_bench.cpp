@@ -61,8 +61,7 @@ Siblings make_siblings(std::size_t connections, std::uint64_t seed) {
     GeneClockSource clock_1(RobotId{1}, genesis);
     GeneClockSource clock_2(RobotId{2}, genesis);
 
-    Genome ancestor =
-        make_initial_genome({RobotId{1}, 0}, topology, settings.weight_limit, random);
+    Genome ancestor = make_initial_genome({RobotId{1}, 0}, topology, settings.weight_limit, random);
     grow(ancestor, initial + (connections - initial) / 2, clock_1, random);
     benchmark::DoNotOptimize(clock_2.observe(clock_1.stamp()));
     Siblings siblings{ancestor, ancestor};
@@ -108,10 +107,16 @@ void count_genes(benchmark::State& state, const std::vector<Siblings>& all) {
         align(siblings.first.topology->connection_marks, siblings.second.topology->connection_marks,
               [&](GeneMatch match, std::size_t, std::size_t) {
                   switch (match) {
-                      case GeneMatch::matching: matching += 1.0; break;
+                      case GeneMatch::matching:
+                          matching += 1.0;
+                          break;
                       case GeneMatch::disjoint_first:
-                      case GeneMatch::disjoint_second: disjoint += 1.0; break;
-                      default: excess += 1.0; break;
+                      case GeneMatch::disjoint_second:
+                          disjoint += 1.0;
+                          break;
+                      default:
+                          excess += 1.0;
+                          break;
                   }
               });
     }
@@ -148,8 +153,8 @@ void measure_crossover(benchmark::State& state, const std::vector<Siblings>& all
     for (auto _ : state) {
         const Siblings& siblings = all[next % pairs];
         const float fitness = static_cast<float>(next++ / pairs % 2);  // either is the fitter
-        benchmark::DoNotOptimize(crossover({}, {&siblings.first, fitness},
-                                           {&siblings.second, 0.5f}, settings, random));
+        benchmark::DoNotOptimize(
+            crossover({}, {&siblings.first, fitness}, {&siblings.second, 0.5f}, settings, random));
     }
     count_genes(state, all);
 }
@@ -197,10 +202,10 @@ void agent_receive(benchmark::State& state) {
     const OdneatSettings settings;
     const auto topology = make_initial_topology(inputs, outputs);
     const auto make_agent = [&](std::uint32_t robot) {
-        return Agent(RobotId{robot}, settings, topology,
-                     std::make_unique<GeneClockSource>(RobotId{robot},
-                                                       genesis_mark_count(inputs, outputs)),
-                     RandomStream(4, robot));
+        return Agent(
+            RobotId{robot}, settings, topology,
+            std::make_unique<GeneClockSource>(RobotId{robot}, genesis_mark_count(inputs, outputs)),
+            RandomStream(4, robot));
     };
     Agent receiver = make_agent(1);
     std::vector<Message> messages;

@@ -1,0 +1,548 @@
+#include "gene_clocks/neat/agent.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "sample_genomes.hpp"
+
+namespace gene_clocks::neat {
+namespace {
+
+using namespace samples;
+
+constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
+constexpr std::size_t inputs = 3;
+constexpr std::size_t outputs = 2;
+const std::uint64_t genesis_marks = genesis_mark_count(inputs, outputs);
+
+class AgentTest : public testing::Test {
+protected:
+    AgentTest() {
+        // Nothing at random, unless a test asks for it.
+        settings_.p_mate = 0.0;
+        settings_.p_mutate = 0.0;
+        settings_.population = 3;
+        settings_.maturation_cycles = 5;
+    }
+
+    Agent make_agent(std::uint32_t robot = 1, std::uint64_t genesis_count = genesis_marks) {
+        return Agent(RobotId{robot}, settings_, topology_,
+                     std::make_unique<GeneClockSource>(RobotId{robot}, genesis_count),
+                     RandomStream(1, robot));
+    }
+
+    /// A message from robot 9: a genome of which all weights are `weight`.
+    Message message(std::uint32_t birth, float weight, float energy, std::uint64_t stamp = 1) {
+        Genome genome{{RobotId{9}, birth}, topology_, {}, {}};
+        genome.weights.assign(topology_->connection_marks.size(), weight);
+        genome.enabled.assign(topology_->connection_marks.size(), 1.0f);
+        return {std::make_shared<const Genome>(std::move(genome)), energy, Stamp{stamp}};
+    }
+
+    static std::vector<GenomeId> ids(const Agent& agent) {
+        std::vector<GenomeId> held;
+        for (const auto& member : agent.population().members()) held.push_back(member.genome->id);
+        return held;
+    }
+    static bool holds(const Agent& agent, GenomeId id) {
+        return agent.population().find(id).has_value();
+    }
+    static float fitness_of(const Agent& agent, GenomeId id) {
+        return agent.population().members()[agent.population().find(id).value()].fitness;
+    }
+
+    OdneatSettings settings_;
+    std::shared_ptr<const Topology> topology_ = make_initial_topology(inputs, outputs);
+};
+
+// ---- g_a ← random_genome(); P ← {g_a}; e ← e_init ----
+
+TEST_F(AgentTest, StartsWithARandomPerceptronInItsPopulationAndTheInitialEnergy) {
+    const Agent agent = make_agent(4);
+    EXPECT_EQ(agent.active().id, (GenomeId{RobotId{4}, 0}));
+    EXPECT_EQ(agent.active().topology, topology_);
+    EXPECT_EQ(agent.robot(), RobotId{4});
+    RandomStream twin(1, 4);
+    const Genome expected = make_initial_genome({}, topology_, settings_.weight_limit, twin);
+    EXPECT_EQ(agent.active().weights, expected.weights);
+    EXPECT_EQ(ids(agent), std::vector<GenomeId>{agent.active().id});
+    EXPECT_EQ(agent.population().species_count(), 1u);
+    EXPECT_EQ(agent.energy(), 100.0f);
+    EXPECT_EQ(agent.fitness(), 100.0f);
+    EXPECT_EQ(agent.tabu_list().size(), 0u);
+    EXPECT_EQ(agent.source().stamp(), Stamp{genesis_marks + 1});
+}
+
+// ---- if do_broadcast? then send(g_a, e, neighbors) ----
+
+TEST_F(AgentTest, BroadcastsWithTheFitnessShareOfItsSpecies) {
+    Agent agent = make_agent();
+    EXPECT_EQ(agent.broadcast_probability(), 1.0);
+    agent.receive(message(0, 9.0f, 50.0f));  // far: another species
+    EXPECT_NEAR(agent.broadcast_probability(), 100.0 / 150.0, 1e-6);
+    agent.receive(message(1, 8.9f, 150.0f));  // its companion: the mean of 50 / 2 and 150 / 2
+    EXPECT_NEAR(agent.broadcast_probability(), 100.0 / 150.0, 1e-6);
+    agent.receive(message(1, 8.9f, 250.0f));  // averaged in: 200
+    EXPECT_NEAR(agent.broadcast_probability(), 100.0 / (100.0 + (50.0 + 200.0) / 4.0), 1e-6);
+}
+
+TEST_F(AgentTest, TheBroadcastShareFollowsItsFitness) {
+    settings_.fitness_period_cycles = 1;
+    Agent agent = make_agent();
+    agent.receive(message(0, 9.0f, 50.0f));
+    ASSERT_NEAR(agent.broadcast_probability(), 100.0 / 150.0, 1e-6);
+    agent.spend(-100.0f);  // fitness: the mean of 100 and 0
+    EXPECT_NEAR(agent.broadcast_probability(), 0.5, 1e-6);
+}
+
+TEST_F(AgentTest, AMessageCarriesTheActiveGenomeTheEnergyAndTheStamp) {
+    Agent agent = make_agent();
+    agent.spend(-30.0f);
+    const Message sent = agent.message();
+    EXPECT_EQ(sent.genome.get(), &agent.active());
+    EXPECT_EQ(sent.energy, 70.0f);
+    EXPECT_EQ(sent.stamp, Stamp{genesis_marks + 1});
+    EXPECT_EQ(agent.receive(message(0, 9.0f, 1.0f, 500)), Reception::accepted);
+    EXPECT_EQ(agent.message().stamp, Stamp{500});
+}
+
+// ---- forall g in received: if Tabu.approves(g) and P.accepts(g) then P ← P ∪ {g} ----
+
+TEST_F(AgentTest, AcceptsAnyGenomeWhileThereIsRoom) {
+    Agent agent = make_agent();
+    EXPECT_EQ(agent.receive(message(0, 9.0f, 0.0f)), Reception::accepted);
+    EXPECT_EQ(agent.receive(message(1, -9.0f, 0.0f)), Reception::accepted);
+    EXPECT_EQ(agent.population().members().size(), 3u);
+    EXPECT_EQ(agent.population().species_count(), 3u);
+    EXPECT_EQ(agent.tabu_list().size(), 0u);
+}
+
+TEST_F(AgentTest, AFullPopulationTakesAFitterGenomeForItsWorst) {
+    Agent agent = make_agent();
+    agent.receive(message(0, 9.0f, 20.0f));
+    agent.receive(message(1, -9.0f, 30.0f));
+    EXPECT_EQ(agent.receive(message(2, 5.0f, 25.0f)), Reception::accepted);
+    EXPECT_FALSE(holds(agent, {RobotId{9}, 0}));
+    EXPECT_TRUE(holds(agent, {RobotId{9}, 2}));
+    EXPECT_EQ(fitness_of(agent, {RobotId{9}, 2}), 25.0f);
+    EXPECT_EQ(agent.tabu_list().size(), 1u);
+    // What was dropped is known as poor.
+    EXPECT_EQ(agent.receive(message(0, 9.0f, 200.0f)), Reception::tabu);
+}
+
+TEST_F(AgentTest, AFullPopulationRefusesAGenomeThatIsNoFitter) {
+    Agent agent = make_agent();
+    agent.receive(message(0, 9.0f, 20.0f));
+    agent.receive(message(1, -9.0f, 30.0f));
+    const auto before = ids(agent);
+    EXPECT_EQ(agent.receive(message(2, 5.0f, 20.0f)), Reception::unfit);
+    EXPECT_EQ(ids(agent), before);
+    EXPECT_EQ(agent.tabu_list().size(), 0u);
+}
+
+TEST_F(AgentTest, TheActiveGenomeIsNeverEvicted) {
+    settings_.fitness_period_cycles = 1;
+    Agent agent = make_agent();
+    agent.receive(message(0, 9.0f, 120.0f));
+    agent.receive(message(1, -9.0f, 130.0f));
+    agent.spend(-100.0f);  // the active genome is the worst by far now
+    EXPECT_EQ(agent.receive(message(2, 5.0f, 110.0f)), Reception::unfit);
+    EXPECT_EQ(agent.receive(message(2, 5.0f, 125.0f)), Reception::accepted);
+    EXPECT_TRUE(holds(agent, agent.active().id));
+    EXPECT_FALSE(holds(agent, {RobotId{9}, 0}));
+}
+
+TEST_F(AgentTest, APopulationOfOneHoldsTheActiveGenomeAlone) {
+    settings_.population = 1;
+    Agent agent = make_agent();
+    EXPECT_EQ(agent.receive(message(0, 9.0f, 200.0f)), Reception::unfit);
+    const GenomeId first = agent.active().id;
+    agent.spend(-100.0f);
+    agent.replace(0.0);
+    EXPECT_NE(agent.active().id, first);
+    EXPECT_EQ(ids(agent), std::vector<GenomeId>{agent.active().id});
+}
+
+TEST_F(AgentTest, TheEnergyOfAHeldGenomeIsAveragedIn) {
+    settings_.held_energy = HeldEnergy::running_mean;
+    Agent agent = make_agent();
+    EXPECT_EQ(agent.receive(message(0, 9.0f, 20.0f)), Reception::accepted);
+    EXPECT_EQ(agent.receive(message(0, 9.0f, 40.0f)), Reception::updated);
+    EXPECT_FLOAT_EQ(fitness_of(agent, {RobotId{9}, 0}), 30.0f);
+    EXPECT_EQ(agent.receive(message(0, 9.0f, 90.0f)), Reception::updated);
+    EXPECT_FLOAT_EQ(fitness_of(agent, {RobotId{9}, 0}), 50.0f);
+    EXPECT_EQ(agent.population().members().size(), 2u);
+}
+
+TEST_F(AgentTest, TheEnergyOfAHeldGenomeIsOverwrittenWhereTheSettingsSaySo) {
+    settings_.held_energy = HeldEnergy::overwrite;
+    Agent agent = make_agent();
+    agent.receive(message(0, 9.0f, 20.0f));
+    EXPECT_EQ(agent.receive(message(0, 9.0f, 40.0f)), Reception::updated);
+    EXPECT_EQ(fitness_of(agent, {RobotId{9}, 0}), 40.0f);
+}
+
+TEST_F(AgentTest, AHeldGenomeMustPassTheAcceptanceTestFirst) {
+    settings_.held_energy = HeldEnergy::overwrite;
+    Agent agent = make_agent();
+    agent.receive(message(0, 9.0f, 50.0f));
+    agent.receive(message(1, -9.0f, 40.0f));
+    // Full, and no fitter than the worst: not even that genome's own entry changes.
+    EXPECT_EQ(agent.receive(message(0, 9.0f, 40.0f)), Reception::unfit);
+    EXPECT_EQ(fitness_of(agent, {RobotId{9}, 0}), 50.0f);
+    EXPECT_EQ(agent.receive(message(0, 9.0f, 41.0f)), Reception::updated);
+    EXPECT_EQ(fitness_of(agent, {RobotId{9}, 0}), 41.0f);
+}
+
+TEST_F(AgentTest, TheTabuListIsAskedBeforeThePopulation) {
+    Agent agent = make_agent();
+    agent.receive(message(0, 9.0f, 20.0f));
+    agent.receive(message(1, -9.0f, 30.0f));
+    agent.receive(message(2, 5.0f, 25.0f));  // drops genome 0
+    // Both tabu and unfit: a tabu genome renews its entry although it would not be accepted.
+    for (int i = 0; i < 200; ++i) {
+        ASSERT_EQ(agent.receive(message(0, 9.0f, 0.0f)), Reception::tabu);
+    }
+    EXPECT_EQ(agent.tabu_list().size(), 1u);
+    // And an unfit one ages the entries.
+    for (int i = 0; i < 50; ++i) {
+        ASSERT_EQ(agent.receive(message(3, 0.0f, 0.0f)), Reception::unfit);
+    }
+    EXPECT_EQ(agent.tabu_list().size(), 0u);
+}
+
+TEST_F(AgentTest, TheClockAdvancesOnEveryMessageAcceptedOrNot) {
+    Agent agent = make_agent();
+    ASSERT_EQ(agent.receive(message(0, 9.0f, 20.0f, 100)), Reception::accepted);
+    EXPECT_EQ(agent.source().stamp(), Stamp{100});
+    ASSERT_EQ(agent.receive(message(0, 9.0f, 30.0f, 200)), Reception::updated);
+    EXPECT_EQ(agent.source().stamp(), Stamp{200});
+    agent.receive(message(1, -9.0f, 30.0f));
+    ASSERT_EQ(agent.receive(message(2, 5.0f, 0.0f, 300)), Reception::unfit);
+    EXPECT_EQ(agent.source().stamp(), Stamp{300});
+    agent.receive(message(2, 5.0f, 40.0f));  // drops genome 0
+    ASSERT_EQ(agent.receive(message(0, 9.0f, 30.0f, 400)), Reception::tabu);
+    EXPECT_EQ(agent.source().stamp(), Stamp{400});
+    ASSERT_EQ(agent.receive(message(0, 9.0f, 30.0f, 350)), Reception::tabu);
+    EXPECT_EQ(agent.source().stamp(), Stamp{400});
+}
+
+/// A source that refuses stamps above a limit, as a gene clock with an admission window does.
+class WaryClockSource final : public InnovationSource {
+public:
+    std::optional<SplitMarks> mark_split(const Genome&, std::size_t, double) override {
+        return std::nullopt;
+    }
+    std::optional<InnovationNumber> mark_connection(const Genome&, const ConnectionEnds&,
+                                                    double) override {
+        return std::nullopt;
+    }
+    Stamp stamp() const override { return Stamp{next_}; }
+    bool observe(Stamp stamp) override {
+        if (stamp.value > 1000) return false;
+        next_ = std::max(next_, stamp.value);
+        return true;
+    }
+
+private:
+    std::uint64_t next_ = 1;
+};
+
+TEST_F(AgentTest, AMessageWhoseStampIsRefusedLeavesNoTrace) {
+    settings_.tabu_receptions = 2;
+    Agent agent(RobotId{1}, settings_, topology_, std::make_unique<WaryClockSource>(),
+                RandomStream(1, 1));
+    agent.receive(message(0, 9.0f, 20.0f));
+    agent.receive(message(1, -9.0f, 30.0f));
+    agent.receive(message(2, 5.0f, 25.0f, 7));  // drops genome 0, which is tabu now
+    const auto before = ids(agent);
+    const double share = agent.broadcast_probability();
+    const RandomStream random = agent.random();
+    for (int i = 0; i < 10; ++i) {
+        // Fit to be accepted; held already; and of the kind that ages or renews the tabu entry.
+        for (const std::uint32_t birth : {0u, 1u, 3u}) {
+            const float weight = birth == 0 ? 9.0f : birth == 1 ? -9.0f : 1.0f;
+            ASSERT_EQ(agent.receive(message(birth, weight, 190.0f, 1001)), Reception::refused);
+        }
+    }
+    EXPECT_EQ(ids(agent), before);
+    EXPECT_EQ(fitness_of(agent, {RobotId{9}, 1}), 30.0f);
+    EXPECT_EQ(agent.broadcast_probability(), share);
+    EXPECT_EQ(agent.source().stamp(), Stamp{7});
+    RandomStream untouched = random;
+    RandomStream now = agent.random();
+    EXPECT_EQ(now.bits(), untouched.bits());
+    // The tabu entry is as old as it was: it leaves at its second other reception.
+    ASSERT_EQ(agent.tabu_list().size(), 1u);
+    agent.receive(message(1, -9.0f, 0.0f));
+    EXPECT_EQ(agent.tabu_list().size(), 1u);
+    agent.receive(message(1, -9.0f, 0.0f));
+    EXPECT_EQ(agent.tabu_list().size(), 0u);
+}
+
+// ---- execute(g_a); e ← e + ΔE ----
+
+TEST_F(AgentTest, RunsTheControllerOfItsActiveGenome) {
+    Agent agent = make_agent();
+    Controller controller(agent.active(), settings_.activation_slope);
+    const std::vector<float> readings{0.25f, -0.5f, 1.0f};
+    for (int cycle = 0; cycle < 3; ++cycle) {
+        const auto expected = controller.update(readings);
+        const auto actual = agent.control(readings);
+        EXPECT_TRUE(std::equal(actual.begin(), actual.end(), expected.begin(), expected.end()));
+    }
+}
+
+TEST_F(AgentTest, KeepsItsEnergyInRange) {
+    Agent agent = make_agent();
+    agent.gain(30.0f);
+    EXPECT_EQ(agent.energy(), 130.0f);
+    agent.gain(1000.0f);
+    EXPECT_EQ(agent.energy(), 200.0f);
+    agent.spend(-0.5f);
+    EXPECT_EQ(agent.energy(), 199.5f);
+    agent.spend(-1000.0f);
+    EXPECT_EQ(agent.energy(), 0.0f);
+}
+
+TEST_F(AgentTest, ItsFitnessIsTheRunningMeanOfItsEnergyEveryTenCycles) {
+    Agent agent = make_agent();
+    double sum = 100.0;  // the initial energy is the first sample
+    double samples = 1.0;
+    for (int cycle = 1; cycle <= 100; ++cycle) {
+        agent.spend(cycle % 3 == 0 ? 2.0f : -1.5f);
+        if (cycle % 10 == 0) {
+            sum += agent.energy();
+            samples += 1.0;
+        }
+        ASSERT_FLOAT_EQ(agent.fitness(), static_cast<float>(sum / samples)) << cycle;
+        ASSERT_EQ(fitness_of(agent, agent.active().id), agent.fitness());
+    }
+}
+
+TEST_F(AgentTest, AGainBetweenCyclesDoesNotAgeTheGenome) {
+    settings_.fitness_period_cycles = 2;
+    Agent agent = make_agent();
+    for (int i = 0; i < 10; ++i) agent.gain(5.0f);
+    EXPECT_EQ(agent.fitness(), 100.0f);
+    agent.spend(0.0f);
+    agent.spend(0.0f);
+    EXPECT_FLOAT_EQ(agent.fitness(), 125.0f);
+}
+
+// ---- if e ≤ e_threshold and not in_maturation_period then ----
+
+TEST_F(AgentTest, IsDepletedWithoutEnergyOncePastMaturation) {
+    Agent agent = make_agent();
+    agent.spend(-100.0f);
+    for (int age = 1; age <= 5; ++age) {
+        EXPECT_FALSE(agent.is_depleted()) << age;
+        agent.spend(0.0f);
+    }
+    EXPECT_TRUE(agent.is_depleted());  // of age 6
+    agent.gain(0.1f);
+    EXPECT_FALSE(agent.is_depleted());
+}
+
+TEST_F(AgentTest, IsNeverDepletedWithEnergyLeft) {
+    Agent agent = make_agent();
+    for (int age = 0; age < 1000; ++age) agent.spend(0.0f);
+    EXPECT_FALSE(agent.is_depleted());
+}
+
+// ---- Tabu ← Tabu ∪ {g_a}; offspring; P ← P ∪ {g_offsp}; g_a ← g_offsp; e ← e_init ----
+
+TEST_F(AgentTest, AReplacementStartsAnewWithAnOffspringOfItsPopulation) {
+    Agent agent = make_agent(4);
+    const auto dead = agent.message().genome;
+    for (int i = 0; i < 7; ++i) agent.spend(-20.0f);
+    ASSERT_TRUE(agent.is_depleted());
+    const Birth birth = agent.replace(0.0);
+    EXPECT_FALSE(birth.mated);
+    EXPECT_EQ(birth.mutation, Mutation::none);
+    EXPECT_EQ(agent.active().id, (GenomeId{RobotId{4}, 1}));
+    EXPECT_TRUE(same_genes(agent.active(), *dead));  // a clone, but a new genome
+    EXPECT_EQ(agent.energy(), 100.0f);
+    EXPECT_EQ(agent.fitness(), 100.0f);
+    EXPECT_FALSE(agent.is_depleted());
+    EXPECT_EQ(ids(agent), (std::vector<GenomeId>{dead->id, agent.active().id}));
+    EXPECT_EQ(agent.tabu_list().size(), 1u);
+}
+
+TEST_F(AgentTest, TheDeadGenomeIsTabu) {
+    Agent agent = make_agent(4);
+    const Message of_the_dead = agent.message();
+    agent.replace(0.0);
+    EXPECT_EQ(agent.receive(of_the_dead), Reception::tabu);
+}
+
+TEST_F(AgentTest, TheOffspringCountsItsOwnAgeAndSamples) {
+    Agent agent = make_agent();
+    for (int i = 0; i < 7; ++i) agent.spend(-20.0f);
+    agent.replace(0.0);
+    for (int cycle = 1; cycle < 10; ++cycle) agent.spend(-4.0f);
+    EXPECT_EQ(agent.fitness(), 100.0f);
+    agent.spend(-4.0f);
+    EXPECT_FLOAT_EQ(agent.fitness(), (100.0f + 60.0f) / 2.0f);
+}
+
+TEST_F(AgentTest, TheControllerIsThatOfTheOffspring) {
+    settings_.p_mutate = 1.0;
+    settings_.p_node = settings_.p_connection = 0.0;
+    settings_.p_weight = 1.0;
+    settings_.sigma = 1.0;
+    Agent agent = make_agent();
+    agent.control(std::vector{0.5f, 0.5f, 1.0f});
+    EXPECT_EQ(agent.replace(0.0).mutation, Mutation::weights);
+    Controller controller(agent.active(), settings_.activation_slope);
+    const std::vector<float> readings{0.5f, 0.25f, 1.0f};
+    EXPECT_EQ(agent.control(readings)[0], controller.update(readings)[0]);
+}
+
+TEST_F(AgentTest, AFullPopulationDropsItsWorstForTheOffspring) {
+    Agent agent = make_agent();
+    agent.receive(message(0, 9.0f, 20.0f));
+    agent.receive(message(1, -9.0f, 90.0f));
+    const GenomeId dead = agent.active().id;
+    agent.replace(0.0);
+    // The dead genome's recorded fitness is still 100: genome 0 is the worst.
+    EXPECT_EQ(ids(agent), (std::vector<GenomeId>{dead, {RobotId{9}, 1}, agent.active().id}));
+    EXPECT_EQ(agent.tabu_list().size(), 2u);
+    EXPECT_EQ(agent.receive(message(0, 9.0f, 200.0f)), Reception::tabu);
+}
+
+TEST_F(AgentTest, TheDeadGenomeMayBeTheWorstAndIsListedOnce) {
+    settings_.fitness_period_cycles = 1;
+    Agent agent = make_agent();
+    agent.receive(message(0, 9.0f, 80.0f));
+    agent.receive(message(1, -9.0f, 90.0f));
+    const GenomeId dead = agent.active().id;
+    for (int i = 0; i < 100; ++i) agent.spend(-100.0f);
+    agent.replace(0.0);
+    EXPECT_FALSE(holds(agent, dead));
+    EXPECT_EQ(agent.population().members().size(), 3u);
+    EXPECT_EQ(agent.tabu_list().size(), 1u);
+}
+
+TEST_F(AgentTest, TheDeadGenomeIsStillAParent) {
+    // Two species of equal fitness, the dead genome's and another's: half of the offspring each.
+    int of_the_dead = 0;
+    constexpr int births = 2000;
+    for (std::uint32_t i = 0; i < births; ++i) {
+        Agent agent = make_agent(100 + i);
+        agent.receive(message(0, 9.0f, 100.0f));
+        const auto dead = agent.message().genome;
+        agent.replace(0.0);
+        of_the_dead += agent.active().weights == dead->weights ? 1 : 0;
+    }
+    EXPECT_NEAR(of_the_dead / double{births}, 0.5, 5 * std::sqrt(0.25 / births));
+}
+
+TEST_F(AgentTest, AllMembersAreDividedAnewAtABirth) {
+    settings_.population = 4;
+    settings_.c_weight = 1.0 / static_cast<double>(inputs * outputs);  // distance = |Δ weight|
+    Agent agent = make_agent();
+    agent.receive(message(0, 10.0f, 1.0f));  // founds a species
+    agent.receive(message(1, 8.0f, 500.0f));
+    agent.receive(message(2, 6.0f, 400.0f));  // 4 from the representative: a third species
+    ASSERT_EQ(agent.population().species_count(), 3u);
+    // Genome 0, the worst, leaves; genome 1 founds the species, and genome 2 is near it.
+    agent.replace(0.0);
+    EXPECT_FALSE(holds(agent, {RobotId{9}, 0}));
+    const auto& members = agent.population().members();
+    const auto species_of = [&](std::uint32_t birth) {
+        return members[agent.population().find({RobotId{9}, birth}).value()].species;
+    };
+    EXPECT_EQ(species_of(1), species_of(2));
+}
+
+TEST_F(AgentTest, MatesOnlyTwoDifferentGenomes) {
+    settings_.p_mate = 1.0;
+    Agent alone = make_agent();
+    EXPECT_FALSE(alone.replace(0.0).mated);
+
+    // Two members of a species give the same parent in every draw: the fitter of the two.
+    settings_.c_weight = 0.0;
+    Agent two = make_agent();
+    two.receive(message(0, 9.0f, 50.0f));
+    EXPECT_FALSE(two.replace(0.0).mated);
+
+    settings_.population = 4;
+    int mated = 0;
+    constexpr int births = 2000;
+    for (std::uint32_t i = 0; i < births; ++i) {
+        Agent three = make_agent(100 + i);
+        three.receive(message(0, 9.0f, 50.0f));
+        three.receive(message(1, -9.0f, 60.0f));
+        const auto active = three.message().genome;
+        const bool is_mated = three.replace(0.0).mated;
+        mated += is_mated ? 1 : 0;
+        // A child of two genomes of one topology has weights of either.
+        if (!is_mated) continue;
+        for (std::size_t gene = 0; gene < active->weights.size(); ++gene) {
+            const float weight = three.active().weights[gene];
+            ASSERT_TRUE(weight == active->weights[gene] || weight == -9.0f);
+        }
+    }
+    // The fittest is drawn with 2/3, the second with 1/3: different in 4 of 9.
+    const double expected = 4.0 / 9.0;
+    EXPECT_NEAR(mated / double{births}, expected,
+                5 * std::sqrt(expected * (1 - expected) / births));
+}
+
+TEST_F(AgentTest, MatesAndMutatesWithTheirProbabilities) {
+    settings_.p_mate = 0.3;
+    settings_.p_mutate = 0.6;
+    settings_.p_node = 1.0;
+    settings_.c_weight = 0.0;
+    settings_.population = 4;
+    int mated = 0;
+    int mutated = 0;
+    constexpr int births = 4000;
+    for (std::uint32_t i = 0; i < births; ++i) {
+        Agent agent = make_agent(100 + i);
+        agent.receive(message(0, 9.0f, 50.0f));
+        agent.receive(message(1, -9.0f, 60.0f));
+        const Birth birth = agent.replace(0.0);
+        mated += birth.mated ? 1 : 0;
+        mutated += birth.mutation == Mutation::add_neuron ? 1 : 0;
+    }
+    const auto tolerance = [](double p) { return 5 * std::sqrt(p * (1 - p) / births); };
+    EXPECT_NEAR(mated / double{births}, 0.3 * 4.0 / 9.0, tolerance(0.3 * 4.0 / 9.0));
+    EXPECT_NEAR(mutated / double{births}, 0.6, tolerance(0.6));
+}
+
+TEST_F(AgentTest, MarksTheGenesOfAMutationWithItsOwnClock) {
+    settings_.p_mutate = 1.0;
+    settings_.p_node = 1.0;
+    Agent agent = make_agent(4);
+    agent.receive(message(0, 0.0f, 0.0f, 500));
+    ASSERT_EQ(agent.replace(0.0).mutation, Mutation::add_neuron);
+    EXPECT_EQ(agent.active().topology->neurons.back().mark, mark(500, 4));
+    EXPECT_EQ(agent.active().topology->connection_marks.back(), mark(502, 4));
+    EXPECT_EQ(agent.message().stamp, Stamp{503});
+}
+
+TEST_F(AgentTest, AnExhaustedClockMeansNoStructuralMutation) {
+    settings_.p_mutate = 1.0;
+    settings_.p_node = 1.0;
+    Agent agent = make_agent(4, largest - 3);
+    const auto before = agent.message().genome;
+    EXPECT_EQ(agent.replace(0.0).mutation, Mutation::none);
+    EXPECT_TRUE(same_genes(agent.active(), *before));
+    EXPECT_EQ(agent.message().stamp, Stamp{largest - 2});
+}
+
+TEST_F(AgentTest, CanBeMoved) {
+    Agent agent = make_agent();
+    const GenomeId id = agent.active().id;
+    const Agent moved = std::move(agent);
+    EXPECT_EQ(moved.active().id, id);
+}
+
+}  // namespace
+}  // namespace gene_clocks::neat

@@ -1,0 +1,174 @@
+#include "gene_clocks/neat/crossover.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sample_genomes.hpp"
+
+namespace gene_clocks::neat {
+namespace {
+
+using namespace samples;
+
+constexpr GenomeId child_id{RobotId{7}, 42};
+
+/// Two parents from one perceptron: `first` has the hidden neuron 20 of its own, `second` a
+/// recurrent connection 23 and one more, 24. Weights of `first` are 1, of `second` 2.
+class Crossover : public testing::Test {
+protected:
+    Crossover() {
+        first_ = perceptron(3, 2, {RobotId{1}, 1});
+        second_ = perceptron(3, 2, {RobotId{2}, 1});
+        add_hidden(first_, mark(20));
+        add_gene(first_, mark(21), {genesis(1), mark(20), false});
+        add_gene(first_, mark(22), {mark(20), genesis(4), false});
+        add_gene(second_, mark(23), {genesis(4), genesis(4), true});
+        first_.weights.assign(first_.connections(), 1.0f);
+        second_.weights.assign(second_.connections(), 2.0f);
+    }
+
+    Genome cross(float fitness_first, float fitness_second) {
+        Genome child = crossover(child_id, {&first_, fitness_first}, {&second_, fitness_second},
+                                 settings_, random_);
+        EXPECT_EQ(fault_of(child), "valid");
+        EXPECT_EQ(child.id, child_id);
+        return child;
+    }
+
+    OdneatSettings settings_;
+    RandomStream random_{1, 1};
+    Genome first_;
+    Genome second_;
+};
+
+TEST_F(Crossover, TheChildHasTheGenesOfTheFitterParent) {
+    EXPECT_TRUE(same_structure(*cross(2.0f, 1.0f).topology, *first_.topology));
+    EXPECT_TRUE(same_structure(*cross(1.0f, 2.0f).topology, *second_.topology));
+}
+
+TEST_F(Crossover, OfEquallyFitParentsTheSmallerCountsAsFitter) {
+    EXPECT_TRUE(same_structure(*cross(1.0f, 1.0f).topology, *second_.topology));
+    std::swap(first_, second_);
+    EXPECT_TRUE(same_structure(*cross(1.0f, 1.0f).topology, *first_.topology));
+}
+
+TEST_F(Crossover, OfEquallyFitParentsOfOneSizeTheSecondCountsAsFitter) {
+    add_gene(second_, mark(24), {genesis(5), genesis(5), true}, 2.0f);
+    ASSERT_EQ(first_.connections(), second_.connections());
+    EXPECT_TRUE(same_structure(*cross(1.0f, 1.0f).topology, *second_.topology));
+    std::swap(first_, second_);
+    EXPECT_TRUE(same_structure(*cross(1.0f, 1.0f).topology, *second_.topology));
+}
+
+TEST_F(Crossover, TheChildSharesTheTopologyWhereNothingIsDropped) {
+    EXPECT_EQ(cross(2.0f, 1.0f).topology, first_.topology);
+}
+
+TEST_F(Crossover, MatchingWeightsComeFromEitherParentHalfOfTheTime) {
+    int from_second = 0;
+    constexpr int children = 20'000;
+    for (int i = 0; i < children; ++i) {
+        const Genome child = cross(2.0f, 1.0f);
+        for (std::size_t gene = 0; gene < 6; ++gene) {
+            ASSERT_TRUE(child.weights[gene] == 1.0f || child.weights[gene] == 2.0f);
+            from_second += child.weights[gene] == 2.0f ? 1 : 0;
+        }
+    }
+    EXPECT_NEAR(from_second / (6.0 * children), 0.5, 5 * std::sqrt(0.25 / (6.0 * children)));
+}
+
+TEST_F(Crossover, UnmatchedGenesComeFromTheFitterAsTheyAre) {
+    first_.enabled[index_of(first_, mark(21))] = 0.0f;
+    for (int i = 0; i < 100; ++i) {
+        const Genome child = cross(2.0f, 1.0f);
+        EXPECT_EQ(child.weights[index_of(child, mark(21))], 1.0f);
+        EXPECT_EQ(child.weights[index_of(child, mark(22))], 1.0f);
+        EXPECT_FALSE(child.is_enabled(index_of(child, mark(21))));
+        EXPECT_TRUE(child.is_enabled(index_of(child, mark(22))));
+    }
+}
+
+TEST_F(Crossover, AMatchingGeneDisabledInOneParentIsMostlyDisabled) {
+    first_.enabled[0] = 0.0f;
+    second_.enabled[1] = 0.0f;
+    int disabled_0 = 0;
+    int disabled_1 = 0;
+    constexpr int children = 40'000;
+    for (int i = 0; i < children; ++i) {
+        const Genome child = cross(2.0f, 1.0f);
+        disabled_0 += child.is_enabled(0) ? 0 : 1;
+        disabled_1 += child.is_enabled(1) ? 0 : 1;
+    }
+    const double tolerance = 5 * std::sqrt(0.875 * 0.125 / children);
+    EXPECT_NEAR(disabled_0 / double{children}, 0.875, tolerance);
+    EXPECT_NEAR(disabled_1 / double{children}, 0.875, tolerance);
+}
+
+TEST_F(Crossover, AMatchingGeneIsDisabledWhereItIsInBothParentsAndEnabledWhereItIsInBoth) {
+    first_.enabled[0] = second_.enabled[0] = 0.0f;
+    for (int i = 0; i < 1000; ++i) {
+        const Genome child = cross(2.0f, 1.0f);
+        ASSERT_FALSE(child.is_enabled(0));
+        ASSERT_TRUE(child.is_enabled(1));
+    }
+}
+
+TEST_F(Crossover, TheProbabilityOfDisablingIsASetting) {
+    first_.enabled[0] = 0.0f;
+    settings_.disable_probability = 0.0;
+    for (int i = 0; i < 100; ++i) ASSERT_TRUE(cross(2.0f, 1.0f).is_enabled(0));
+    settings_.disable_probability = 1.0;
+    for (int i = 0; i < 100; ++i) ASSERT_FALSE(cross(2.0f, 1.0f).is_enabled(0));
+}
+
+TEST_F(Crossover, DropsAConnectionThatReversesAnEarlierFeedForwardOne) {
+    add_gene(first_, mark(30), {genesis(4), mark(20), true}, 1.0f);  // reverses 22
+    add_gene(first_, mark(31), {genesis(5), mark(20), true}, 1.0f);  // reverses nothing
+    const Genome child = cross(2.0f, 1.0f);
+    Genome expected = first_;
+    std::vector<InnovationNumber> marks = first_.topology->connection_marks;
+    std::erase(marks, mark(30));
+    EXPECT_EQ(child.topology->connection_marks, marks);
+    EXPECT_EQ(child.topology->neurons, first_.topology->neurons);
+    EXPECT_FALSE(child.topology->joined(genesis(4), mark(20)));
+    EXPECT_TRUE(child.topology->joined(genesis(5), mark(20)));
+    EXPECT_TRUE(child.topology->joined(mark(20), genesis(4)));
+    EXPECT_EQ(child.weights[index_of(child, mark(31))], 1.0f);
+    EXPECT_EQ(child.connections() + 1, first_.connections());
+}
+
+TEST_F(Crossover, DropsAFeedForwardConnectionThatReversesADisabledOne) {
+    add_hidden(first_, mark(30));
+    add_gene(first_, mark(31), {mark(20), mark(30), false}, 1.0f, false);
+    add_gene(first_, mark(32), {mark(30), mark(20), false}, 1.0f);
+    const Genome child = cross(2.0f, 1.0f);
+    EXPECT_TRUE(child.topology->joined(mark(20), mark(30)));
+    EXPECT_FALSE(child.topology->joined(mark(30), mark(20)));
+}
+
+TEST_F(Crossover, KeepsAFeedForwardConnectionThatReversesAnEarlierRecurrentOne) {
+    add_hidden(first_, mark(30));
+    add_gene(first_, mark(31), {genesis(4), mark(30), true}, 1.0f);
+    add_gene(first_, mark(32), {mark(30), genesis(4), false}, 1.0f);
+    EXPECT_TRUE(same_structure(*cross(2.0f, 1.0f).topology, *first_.topology));
+}
+
+TEST_F(Crossover, KeepsSelfLoops) {
+    EXPECT_TRUE(same_structure(*cross(1.0f, 2.0f).topology, *second_.topology));
+    EXPECT_TRUE(second_.topology->joined(genesis(4), genesis(4)));
+}
+
+TEST_F(Crossover, LeavesTheParentsAsTheyWere) {
+    add_gene(first_, mark(30), {genesis(4), mark(20), true}, 1.0f);
+    const Genome first = first_;
+    const Genome second = second_;
+    const Topology topology = *first_.topology;
+    cross(2.0f, 1.0f);
+    EXPECT_TRUE(same_genes(first, first_));
+    EXPECT_TRUE(same_genes(second, second_));
+    EXPECT_TRUE(same_structure(*first_.topology, topology));
+}
+
+}  // namespace
+}  // namespace gene_clocks::neat
