@@ -1,0 +1,254 @@
+(** What goes wrong without each rule of the protocol, and without each hypothesis of a claim. *)
+From Coq Require Import NArith QArith List.
+From GeneClocks Require Import Mark Alignment Clock Protocol Genome Recording.
+From GeneClocks Require Claims Trace.
+From GeneClocks.proofs Require Import Order Invariant Witnesses.
+Import ListNotations.
+Open Scope N_scope.
+
+Definition tight : limits := Limits 20 0 20 1.  (* no block, no window to speak of *)
+
+(** Two makings, the first of which happened before the second, in a world. *)
+Ltac related w i j := exists (event_at w i), (event_at w j); split; [made_here|]; split; [made_here|].
+Ltac along_robot := apply same_robot;
+  [in_list | in_list | reflexivity | vm_compute; repeat constructor].
+Ltac by_message number := eapply same_message with (k := number);
+  [in_list | in_list | reflexivity | reflexivity].
+Ltac by_gene brought := apply same_gene with (gene := brought);
+  [in_list | in_list | reflexivity | in_list | vm_compute; repeat constructor].
+
+(** In [w], the making of [a] happened before that of [b]. *)
+Definition made_before (w : world) (a b : mark) : Prop := exists ea eb,
+  makes w ea a /\ makes w eb b /\ happened_before (history w) ea eb.
+
+(** ** One rule broken at a time *)
+
+(** The last counter used is sent, not the next unused one: a tie, and the cause sorts second. *)
+Definition sends_last_used : rules := {|
+  stamp_of c := next c - 1; merge := merge gene_clocks; credible := credible gene_clocks;
+  may_send := may_send gene_clocks; resume := resume gene_clocks; retains := retains gene_clocks |}.
+
+Example sends_last_used_fails :
+  let w := run sends_last_used tight [Mint 7 1; Persist 7 3; Send 7 []; Receive 3 0; Mint 3 1] in
+  made_before w (Mark 2 7) (Mark 2 3) /\ Mark 2 3 << Mark 2 7.
+Proof.
+  intros w. split; [|reflexivity]. related w 0%nat 3%nat. apply in_between with (event_at w 1); [along_robot|].
+  apply in_between with (event_at w 2); [by_message 0%nat | along_robot].
+Qed.
+
+(** The robot before the counter, as the paper writes the pair. *)
+Definition robot_first (a b : mark) : Prop :=
+  maker a < maker b \/ maker a = maker b /\ counter a < counter b.
+
+Example robot_first_fails :
+  let w := after_all tight [Mint 7 1; Persist 7 3; Send 7 [Mark 2 7]; Receive 3 0; Mint 3 1] in
+  made_before w (Mark 2 7) (Mark 3 3) /\ robot_first (Mark 3 3) (Mark 2 7).
+Proof.
+  intros w. split; [|now left]. related w 0%nat 3%nat. apply in_between with (event_at w 1); [along_robot|].
+  apply in_between with (event_at w 2); [by_message 0%nat | along_robot].
+Qed.
+
+(** A genome is accepted, but its stamp is not merged. *)
+Definition without_merge : rules := {|
+  stamp_of := stamp_of gene_clocks; merge _ c _ := Some c; credible := credible gene_clocks;
+  may_send := may_send gene_clocks; resume := resume gene_clocks; retains := retains gene_clocks |}.
+
+Example without_merge_fails :
+  let w := run without_merge tight
+             [Mint 7 2; Persist 7 4; Send 7 [Mark 3 7]; Receive 3 0; Mint 3 1] in
+  made_before w (Mark 3 7) (Mark 2 3) /\ In (Mark 3 7) (known (robots w 3)).
+Proof.
+  intros w. split; [|in_list]. related w 1%nat 4%nat. apply in_between with (event_at w 2); [along_robot|].
+  apply in_between with (event_at w 3); [by_message 0%nat | along_robot].
+Qed.
+
+(** A message is believed whatever its genes: a forger need only name a gene above its stamp. *)
+Definition credulous : rules := {|
+  stamp_of := stamp_of gene_clocks; merge := merge gene_clocks; credible _ := true;
+  may_send := may_send gene_clocks; resume := resume gene_clocks; retains := retains gene_clocks |}.
+
+Example credulous_fails :
+  let w := run credulous tight [Mint 7 2; Inject 3 (Message 2 [Mark 3 7]); Mint 3 1] in
+  made_before w (Mark 3 7) (Mark 2 3).
+Proof.
+  intros w. related w 1%nat 3%nat. apply in_between with (event_at w 2); [by_gene (Mark 3 7) | along_robot].
+Qed.
+
+(** Messages leave before the flush: the sender dies, and makes another gene with the same mark. *)
+Definition sends_before_flush : rules := {|
+  stamp_of := stamp_of gene_clocks; merge := merge gene_clocks; credible := credible gene_clocks;
+  may_send _ := true; resume := resume gene_clocks; retains := retains gene_clocks |}.
+
+Example sends_before_flush_fails :
+  let w := run sends_before_flush tight
+             [Mint 7 1; Send 7 [Mark 2 7]; Receive 3 0; Crash 7; Mint 7 1] in
+  map what (lost w) = [Minted (Mark 2 7); Sent 0] /\ In (Mark 2 7) (made w)
+  /\ In (Mark 2 7) (known (robots w 3)).
+Proof. split; [reflexivity|]. split; in_list. Qed.
+
+(** Only what is minted is stored, not what is merged: block reservation must cover both. *)
+Definition merges_unreserved : rules := {|
+  stamp_of := stamp_of gene_clocks; credible := credible gene_clocks;
+  merge l c stamp := option_map (fun c' => Clock (next c') (durable c)) (observe l c stamp);
+  may_send := may_send gene_clocks; resume := resume gene_clocks; retains := retains gene_clocks |}.
+
+Example merges_unreserved_fails :
+  let w := run merges_unreserved tight
+    [Mint 7 2; Persist 7 4; Send 7 [Mark 3 7]; Receive 3 0; Send 3 [Mark 3 7]; Crash 3; Mint 3 1] in
+  map what (lost w) = [Received 0 [Mark 3 7]; Sent 1] /\ In (Mark 2 3) (made w).
+Proof. split; [reflexivity | in_list]. Qed.
+
+(** The counter is not stored at all. *)
+Definition volatile_counter : rules := {|
+  stamp_of := stamp_of gene_clocks; merge := merge gene_clocks; credible := credible gene_clocks;
+  may_send := may_send gene_clocks; resume l _ := restart (start l);
+  retains := retains gene_clocks |}.
+
+Example volatile_counter_fails :
+  made (run volatile_counter tight [Mint 7 1; Persist 7 3; Crash 7; Mint 7 1])
+  = [Mark 2 7; Mark 2 7].
+Proof. reflexivity. Qed.
+
+(** A stored genome is kept although it holds a mark above the restored counter. *)
+Definition hoards : rules := {|
+  stamp_of := stamp_of gene_clocks; merge := merge gene_clocks; credible := credible gene_clocks;
+  may_send := may_send gene_clocks; resume := resume gene_clocks; retains _ _ := true |}.
+
+Example hoards_fails :
+  let w := run hoards tight
+    [Mint 7 2; Persist 7 4; Send 7 [Mark 3 7]; Receive 3 0; Crash 3; Mint 3 1] in
+  made_before w (Mark 3 7) (Mark 2 3).
+Proof.
+  intros w. related w 1%nat 4%nat. apply in_between with (event_at w 3); [by_gene (Mark 3 7) | along_robot].
+Qed.
+
+(** ** One hypothesis dropped at a time *)
+
+(** [valid]: no room between the genesis marks and the maximum. *)
+Definition cramped : limits := Limits 5 0 5 5.
+Example valid_is_needed : ~ durable (memory (robots (init cramped) 7)) <= maximum cramped.
+Proof. vm_compute. intros H. now apply H. Qed.
+
+(** [sorted], in [sorted_form_unique] and in alignment. *)
+Example sorted_is_needed : (forall m, In m [Mark 1 0; Mark 2 7] <-> In m [Mark 2 7; Mark 1 0])
+  /\ [Mark 1 0; Mark 2 7] <> [Mark 2 7; Mark 1 0].
+Proof. split; [cbn; tauto | discriminate]. Qed.
+
+Example sorted_is_needed_to_align :
+  align id [Mark 2 1; Mark 1 1] [Mark 1 1]
+  = [Disjoint Second (Mark 1 1); Excess First (Mark 2 1); Excess First (Mark 1 1)].
+Proof. reflexivity. Qed.
+
+(** [reserve_is_a_block_ahead] below the maximum only: beyond it, what is stored lags behind. *)
+Example below_maximum_is_needed : reserve tight (Clock 21 0) = Clock 21 20.
+Proof. reflexivity. Qed.
+
+(** A wide window: one forged message exhausts its receiver and, by gossip, the swarm … *)
+Example wide_window_is_exhausted :
+  let w := after_all tight [Inject 7 (Message 20 []); Persist 7 20; Send 7 []; Receive 3 0] in
+  snd (do tight w (Mint 7 1)) = Exhausted /\ snd (do tight w (Mint 3 1)) = Exhausted.
+Proof. split; reflexivity. Qed.
+
+(** … a narrow one shuts out an honest robot that was away for long … *)
+Example narrow_window_shuts_out :
+  let l := Limits 20 0 2 1 in
+  let commands := [Mint 7 3; Persist 7 5; Send 7 []] in
+  Claims.budget l commands = start l + window l + 1
+  /\ snd (do l (after_all l commands) (Receive 3 0)) = Refused.
+Proof. split; reflexivity. Qed.
+
+(** … and a crash costs a block of it, each time. *)
+Example crashes_shut_out :
+  let l := Limits 20 2 2 1 in
+  snd (do l (after_all l [Mint 7 1; Persist 7 5; Crash 7; Send 7 []]) (Receive 3 0)) = Refused.
+Proof. reflexivity. Qed.
+
+(** [honest]: a forged message brings genes that nobody made, and marks from a robot's future. *)
+Example honest_is_needed :
+  let w := after_all tight [Inject 3 (Message 10 [Mark 9 7])] in
+  In (Mark 9 7) (known (robots w 3)) /\ made w = [] /\ next (memory (robots w 7)) = 2.
+Proof. split; [in_list|]. split; reflexivity. Qed.
+
+(** A trace does not show forged messages, so the checker sees their effect as a fault. *)
+Example honest_is_needed_to_record :
+  Trace.check_trace tight (recording tight [Inject 3 (Message 10 []); Mint 3 1])
+  = inr (0%nat, Trace.NotNextCounter).
+Proof. reflexivity. Qed.
+
+(** ** Other operators *)
+
+(** Disjoint genes of both parents, as NEAT takes them at equal fitness: the child's genes were
+    made by robots that knew nothing of each other, and no order of creation joins them. *)
+Definition from_both (a b : genome) : genome := map (aligned_mark id) (align id a b).
+
+Example from_both_is_no_chain :
+  from_both of_one of_two = [Mark 1 0; Mark 2 1; Mark 2 2; Mark 3 2]
+  /\ ~ made_before (world_of (evolve small apart)) (Mark 2 1) (Mark 2 2)
+  /\ ~ made_before (world_of (evolve small apart)) (Mark 2 2) (Mark 2 1).
+Proof.
+  split; [reflexivity|].
+  (* no event gives one robot anything of the other's *)
+  assert (Apart : forall e1 e2, happened_before (history (world_of (evolve small apart))) e1 e2 ->
+            place e1 = place e2).
+  { intros e1 e2 H. induction H as [|e1 e2 k gs _ J _ R|e1 e2 gene _ J _ B|]; auto; [| |congruence];
+      vm_compute in J; destruct J as [<-|[<-|[<-|[]]]]; discriminate || destruct B. }
+  split; intros (ea & eb & (A & A') & (B & B') & H); apply Apart in H;
+    vm_compute in A, B; destruct A as [<-|[<-|[<-|[]]]]; try discriminate;
+    destruct B as [<-|[<-|[<-|[]]]]; discriminate.
+Qed.
+
+(** ** Other markings *)
+
+(** A marking against the order of creation, as clocks that drift may give: a matching gene is
+    missed. *)
+Definition drifting (gene : mark) : mark :=
+  match gene with Mark 2 2 => Mark 9 2 | other => other end.
+Example respects_creation_is_needed :
+  matches (align id of_two [Mark 1 0; Mark 3 2]) = [(Mark 1 0, Mark 1 0); (Mark 3 2, Mark 3 2)]
+  /\ matches (align drifting of_two [Mark 1 0; Mark 3 2]) = [(Mark 1 0, Mark 1 0)].
+Proof. split; reflexivity. Qed.
+
+(** A marking that gives two genes the same number, as random identifiers may: strangers match. *)
+Definition colliding (gene : mark) : mark := Mark (counter gene) 0.
+Example one_to_one_is_needed :
+  matches (align id of_one of_two) = [(Mark 1 0, Mark 1 0)]
+  /\ matches (align colliding of_one of_two)
+     = [(Mark 1 0, Mark 1 0); (Mark 2 1, Mark 2 2)].
+Proof. split; reflexivity. Qed.
+
+(** A choice between matching genes that changes their mark. *)
+Example choice_keeps_marks_is_needed :
+  fst (crossover id (fun (d : unit) _ _ => (Mark 9 9, d)) (fun _ _ => true) tt of_one of_two)
+  = [Mark 9 9; Mark 2 1].
+Proof. reflexivity. Qed.
+
+(** Unequal coefficients: see [Witnesses.distance_marking_invariant_witness]. *)
+
+(** ** Faulty traces: each rule of the checker refuses something *)
+
+Definition after_one_send := [Trace.Mint 7 2 3; Trace.Store 7 8; Trace.Send 7 5 4].
+Definition found (trace : list Trace.entry) : nat * option Trace.violation :=
+  match Trace.check_trace small trace with
+  | inl _ => (length trace, None)
+  | inr (position, violation) => (position, Some violation)
+  end.
+
+Example each_fault_is_found : map (fun e => found (after_one_send ++ [e]))
+  [Trace.Mint 7 4 1; Trace.Mint 7 6 1; Trace.Mint 7 5 16; Trace.Send 7 4 3; Trace.Send 7 5 5;
+   Trace.Receive 3 1 5; Trace.Receive 3 0 6; Trace.Receive 3 0 2; Trace.Store 7 7; Trace.Store 7 21;
+   Trace.Restart 7 5; Trace.Restart 3 8; Trace.Mint 7 5 15]
+  = [(3, Some Trace.NotNextCounter); (3, Some Trace.NotNextCounter); (3, Some Trace.Exhausted);
+     (3, Some Trace.WrongStamp); (3, Some Trace.GeneAboveStamp);
+     (3, Some Trace.NoSuchMessage); (3, Some Trace.WrongMaximum); (3, Some Trace.WrongMaximum);
+     (3, Some Trace.StoredBackwards); (3, Some Trace.StoredBackwards);
+     (3, Some Trace.WrongRestart); (3, Some Trace.WrongRestart); (4, None)]%nat.
+Proof. reflexivity. Qed.
+
+Example sending_unstored_is_found :
+  found [Trace.Mint 7 2 3; Trace.Send 7 5 4] = (1%nat, Some Trace.SentBeforeStored).
+Proof. reflexivity. Qed.
+
+Example leaping_is_found :
+  found [Trace.Mint 7 2 10; Trace.Store 7 12; Trace.Send 7 12 11; Trace.Receive 3 0 12]
+  = (3%nat, Some Trace.NotAdmitted).
+Proof. reflexivity. Qed.
