@@ -268,7 +268,7 @@ Definition trace_clock_condition : Prop :=
 (** … and no crash undid anything that had been sent. *)
 Definition trace_sends_survive : Prop :=
   forall l trace i r stamp newest, valid l -> Trace.accepted l trace ->
-    nth_error trace i = Some (Trace.Send r stamp newest) ->
+    nth_error trace i = Some (Trace.Sends r stamp newest) ->
     newest < stamp /\ Trace.remembers trace r i (length trace) stamp.
 
 (** No false alarms: what a run of the protocol records is accepted. *)

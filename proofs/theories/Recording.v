@@ -10,13 +10,13 @@ Definition newest (genes : list mark) : N := fold_right N.max 0 (map counter gen
 (** What one command leaves; a forged message leaves nothing. *)
 Definition entries_of (l : limits) (w : world) (c : command) : list Trace.entry :=
   match c, step gene_clocks l w c with
-  | Mint r _, (_, Marks first count) => [Trace.Mint r first count]
+  | Mint r _, (_, Marks first count) => [Trace.Mints r first count]
   | Send r selection, (w', SentAs k) =>
       let genes := filter (knows (robots w r)) selection in
-      [Trace.Send r (next (memory (robots w r))) (newest genes)]
-  | Receive r k, (w', Accepted) => [Trace.Receive r (N.of_nat k) (next (memory (robots w' r)))]
-  | Persist r _, (w', Persisted) => [Trace.Store r (stored (robots w' r))]
-  | Crash r, (w', _) => [Trace.Restart r (next (memory (robots w' r)))]
+      [Trace.Sends r (next (memory (robots w r))) (newest genes)]
+  | Receive r k, (w', Accepted) => [Trace.Receives r (N.of_nat k) (next (memory (robots w' r)))]
+  | Persist r _, (w', Persisted) => [Trace.Stores r (stored (robots w' r))]
+  | Crash r, (w', _) => [Trace.Restarts r (next (memory (robots w' r)))]
   | _, _ => []
   end.
 

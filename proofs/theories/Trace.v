@@ -11,22 +11,22 @@ Import ListNotations.
 Open Scope N_scope.
 
 Inductive entry :=
-| Mint (robot first count : N)     (** new genes took the counters [first] … [first + count - 1] *)
-| Send (robot stamp newest : N)    (** with a genome whose largest counter is [newest] *)
-| Receive (robot message next : N) (** accepted the trace's [message]-th one (from 0); now [next] *)
-| Store (robot value : N)          (** [value] reached stable storage *)
-| Restart (robot next : N).        (** after a crash, the clock goes on from [next] *)
+| Mints (robot first count : N)      (** new genes took the counters [first] … [first + count - 1] *)
+| Sends (robot stamp newest : N)     (** with a genome whose largest counter is [newest] *)
+| Receives (robot message next : N) (** accepted the trace's [message]-th one (from 0); now [next] *)
+| Stores (robot value : N)           (** [value] reached stable storage *)
+| Restarts (robot next : N).         (** after a crash, the clock goes on from [next] *)
 
 Definition robot_of (e : entry) : N :=
   match e with
-  | Mint r _ _ | Send r _ _ | Receive r _ _ | Store r _ | Restart r _ => r
+  | Mints r _ _ | Sends r _ _ | Receives r _ _ | Stores r _ | Restarts r _ => r
   end.
 
 (** ** The checker *)
 
 Inductive violation :=
 | NotNextCounter      (** a gene took a counter that is not its robot's next *)
-| Exhausted           (** counters beyond the maximum were taken *)
+| BeyondMaximum       (** counters beyond the maximum were taken *)
 | WrongStamp          (** the stamp is not the sender's next counter *)
 | SentBeforeStored    (** a message left while the counter was ahead of storage *)
 | GeneAboveStamp      (** a message holds a gene that is not below its stamp *)
@@ -68,18 +68,18 @@ Definition memory_of (s : seat) : clock := restart (next_of s).
 Definition check_entry (c : checker) (e : entry) : verdict checker :=
   let s := seat_of c (robot_of e) in
   match e with
-  | Mint r first count =>
+  | Mints r first count =>
       require (first =? next_of s) NotNextCounter
       match mint l (memory_of s) count with
       | Some (_, clock) => inl (sit c r (Seat (next clock) (stored_of s)))
-      | None => inr Exhausted
+      | None => inr BeyondMaximum
       end
-  | Send r stamp newest =>
+  | Sends r stamp newest =>
       require (stamp =? next_of s) WrongStamp (
       require (stamp <=? stored_of s) SentBeforeStored (
       require (newest <? stamp) GeneAboveStamp (
       inl (Checker (seats c) (PositiveMap.add (key (sent c)) stamp (stamps c)) (sent c + 1)))))
-  | Receive r message next_after =>
+  | Receives r message next_after =>
       match PositiveMap.find (key message) (stamps c) with
       | None => inr NoSuchMessage
       | Some stamp =>
@@ -90,10 +90,10 @@ Definition check_entry (c : checker) (e : entry) : verdict checker :=
               inl (sit c r (Seat (next clock) (stored_of s))))
           end
       end
-  | Store r value =>
+  | Stores r value =>
       require ((stored_of s <=? value) && (value <=? maximum l)) StoredBackwards (
       inl (sit c r (Seat (next_of s) value)))
-  | Restart r next_after =>
+  | Restarts r next_after =>
       require (next_after =? stored_of s) WrongRestart (
       inl (sit c r (Seat next_after next_after)))
   end.
@@ -123,35 +123,35 @@ Section Meaning.
 Context (trace : list entry).
 
 Definition mints (i : nat) (gene : mark) : Prop :=
-  exists first count, nth_error trace i = Some (Mint (maker gene) first count)
+  exists first count, nth_error trace i = Some (Mints (maker gene) first count)
     /\ first <= counter gene < first + count.
 
 (** The clock of an entry's robot right after it, where the trace shows it. *)
 Definition shows (i : nat) (r n : N) : Prop :=
   match nth_error trace i with
-  | Some (Mint r' first count) => r' = r /\ n = first + count
-  | Some (Send r' stamp _) => r' = r /\ n = stamp
-  | Some (Receive r' _ next) | Some (Restart r' next) => r' = r /\ n = next
-  | Some (Store _ _) | None => False
+  | Some (Mints r' first count) => r' = r /\ n = first + count
+  | Some (Sends r' stamp _) => r' = r /\ n = stamp
+  | Some (Receives r' _ next) | Some (Restarts r' next) => r' = r /\ n = next
+  | Some (Stores _ _) | None => False
   end.
 
 (** After position [i] and up to [j], robot [r] did not restart from below [n]: what it knew at [i],
     when its clock was [n], it still knows at [j]. *)
 Definition remembers (r : N) (i j : nat) (n : N) : Prop :=
-  forall k value, (i < k <= j)%nat -> nth_error trace k = Some (Restart r value) -> n <= value.
+  forall k value, (i < k <= j)%nat -> nth_error trace k = Some (Restarts r value) -> n <= value.
 
 Definition survives (i : nat) (gene : mark) : Prop :=
   remembers (maker gene) i (length trace) (counter gene + 1).
 
 (** How many messages were sent before position [i]: the number of a message sent there. *)
 Definition sent_before (i : nat) : nat :=
-  length (filter (fun e => match e with Send _ _ _ => true | _ => false end) (firstn i trace)).
+  length (filter (fun e => match e with Sends _ _ _ => true | _ => false end) (firstn i trace)).
 
 Inductive trace_before : nat -> nat -> Prop :=
 | trace_same_robot i j r n m : shows i r n -> shows j r m -> (i < j)%nat -> remembers r i j n ->
     trace_before i j
 | trace_same_message i j r stamp newest r' next :
-    nth_error trace i = Some (Send r stamp newest) ->
-    nth_error trace j = Some (Receive r' (N.of_nat (sent_before i)) next) -> trace_before i j
+    nth_error trace i = Some (Sends r stamp newest) ->
+    nth_error trace j = Some (Receives r' (N.of_nat (sent_before i)) next) -> trace_before i j
 | trace_in_between i j k : trace_before i j -> trace_before j k -> trace_before i k.
 End Meaning.

@@ -226,7 +226,7 @@ Proof. reflexivity. Qed.
 
 (** ** Faulty traces: each rule of the checker refuses something *)
 
-Definition after_one_send := [Trace.Mint 7 2 3; Trace.Store 7 8; Trace.Send 7 5 4].
+Definition after_one_send := [Trace.Mints 7 2 3; Trace.Stores 7 8; Trace.Sends 7 5 4].
 Definition found (trace : list Trace.entry) : nat * option Trace.violation :=
   match Trace.check_trace small trace with
   | inl _ => (length trace, None)
@@ -234,10 +234,10 @@ Definition found (trace : list Trace.entry) : nat * option Trace.violation :=
   end.
 
 Example each_fault_is_found : map (fun e => found (after_one_send ++ [e]))
-  [Trace.Mint 7 4 1; Trace.Mint 7 6 1; Trace.Mint 7 5 16; Trace.Send 7 4 3; Trace.Send 7 5 5;
-   Trace.Receive 3 1 5; Trace.Receive 3 0 6; Trace.Receive 3 0 2; Trace.Store 7 7; Trace.Store 7 21;
-   Trace.Restart 7 5; Trace.Restart 3 8; Trace.Mint 7 5 15]
-  = [(3, Some Trace.NotNextCounter); (3, Some Trace.NotNextCounter); (3, Some Trace.Exhausted);
+  [Trace.Mints 7 4 1; Trace.Mints 7 6 1; Trace.Mints 7 5 16; Trace.Sends 7 4 3; Trace.Sends 7 5 5;
+   Trace.Receives 3 1 5; Trace.Receives 3 0 6; Trace.Receives 3 0 2; Trace.Stores 7 7; Trace.Stores 7 21;
+   Trace.Restarts 7 5; Trace.Restarts 3 8; Trace.Mints 7 5 15]
+  = [(3, Some Trace.NotNextCounter); (3, Some Trace.NotNextCounter); (3, Some Trace.BeyondMaximum);
      (3, Some Trace.WrongStamp); (3, Some Trace.GeneAboveStamp);
      (3, Some Trace.NoSuchMessage); (3, Some Trace.WrongMaximum); (3, Some Trace.WrongMaximum);
      (3, Some Trace.StoredBackwards); (3, Some Trace.StoredBackwards);
@@ -245,10 +245,10 @@ Example each_fault_is_found : map (fun e => found (after_one_send ++ [e]))
 Proof. reflexivity. Qed.
 
 Example sending_unstored_is_found :
-  found [Trace.Mint 7 2 3; Trace.Send 7 5 4] = (1%nat, Some Trace.SentBeforeStored).
+  found [Trace.Mints 7 2 3; Trace.Sends 7 5 4] = (1%nat, Some Trace.SentBeforeStored).
 Proof. reflexivity. Qed.
 
 Example leaping_is_found :
-  found [Trace.Mint 7 2 10; Trace.Store 7 12; Trace.Send 7 12 11; Trace.Receive 3 0 12]
+  found [Trace.Mints 7 2 10; Trace.Stores 7 12; Trace.Sends 7 12 11; Trace.Receives 3 0 12]
   = (3%nat, Some Trace.NotAdmitted).
 Proof. reflexivity. Qed.

@@ -34,19 +34,19 @@ Definition effect (c : checker) (e : entry) (c' : checker) : Prop :=
   let s := seat_of l c (robot_of e) in let s' := seat_of l c' (robot_of e) in
   (forall r, r <> robot_of e -> seat_of l c' r = seat_of l c r) /\ seat_ok s' /\
   match e with
-  | Mint _ first count => first = next_of s /\ next_of s' = first + count
+  | Mints _ first count => first = next_of s /\ next_of s' = first + count
       /\ stored_of s' = stored_of s /\ stamps c' = stamps c /\ sent c' = sent c
-  | Send _ stamp newest => stamp = next_of s /\ s' = s /\ stamp <= stored_of s
+  | Sends _ stamp newest => stamp = next_of s /\ s' = s /\ stamp <= stored_of s
       /\ newest < stamp /\ stamps c' = PositiveMap.add (key (sent c)) stamp (stamps c)
       /\ sent c' = sent c + 1
-  | Receive _ k next_after =>
+  | Receives _ k next_after =>
       (exists stamp, PositiveMap.find (key k) (stamps c) = Some stamp
          /\ next_after = N.max (next_of s) stamp)
       /\ next_of s' = next_after /\ stored_of s' = stored_of s
       /\ stamps c' = stamps c /\ sent c' = sent c
-  | Store _ value => next_of s' = next_of s /\ stored_of s <= stored_of s'
+  | Stores _ value => next_of s' = next_of s /\ stored_of s <= stored_of s'
       /\ stamps c' = stamps c /\ sent c' = sent c
-  | Restart _ next_after => next_after = stored_of s /\ next_of s' = next_after
+  | Restarts _ next_after => next_after = stored_of s /\ next_of s' = next_after
       /\ stored_of s' = stored_of s /\ stamps c' = stamps c /\ sent c' = sent c
   end.
 
@@ -113,7 +113,7 @@ Lemma remembers_snoc t e r i j n : (j < length t)%nat ->
 Proof. intros L R k value B E. apply (R k); auto. now rewrite nth_error_old by lia. Qed.
 
 Lemma remembers_last t e r i j n : (i < length t <= j)%nat -> remembers (t ++ [e]) r i j n ->
-  remembers t r i (length t) n /\ forall value, e = Restart r value -> n <= value.
+  remembers t r i (length t) n /\ forall value, e = Restarts r value -> n <= value.
 Proof.
   intros L R. split.
   - intros k value B E. assert (k < length t)%nat by (apply nth_error_Some; congruence).
@@ -135,17 +135,17 @@ Record tracked (t : list entry) (c : checker) : Prop := {
       m <= next_of (seat_of l c r);
   in_order : forall i j r n m n', shows t i r n -> m <= n -> shows t j r n' -> (i < j)%nat ->
       remembers t r i j m ->
-      m <= n' /\ forall first count, nth_error t j = Some (Mint r first count) -> m <= first;
+      m <= n' /\ forall first count, nth_error t j = Some (Mints r first count) -> m <= first;
   numbers : sent c = N.of_nat (sent_before t (length t));
   stamps_numbered : forall k stamp, PositiveMap.find (key k) (stamps c) = Some stamp -> k < sent c;
-  sends : forall i r stamp newest, nth_error t i = Some (Send r stamp newest) ->
+  sends : forall i r stamp newest, nth_error t i = Some (Sends r stamp newest) ->
       PositiveMap.find (key (N.of_nat (sent_before t i))) (stamps c) = Some stamp
       /\ newest < stamp /\ stamp <= stored_of (seat_of l c r) /\ remembers t r i (length t) stamp;
-  receptions : forall j r k n, nth_error t j = Some (Receive r k n) ->
+  receptions : forall j r k n, nth_error t j = Some (Receives r k n) ->
       exists stamp, PositiveMap.find (key k) (stamps c) = Some stamp /\ stamp <= n
-      /\ forall i r' stamp' newest, nth_error t i = Some (Send r' stamp' newest) ->
+      /\ forall i r' stamp' newest, nth_error t i = Some (Sends r' stamp' newest) ->
            k = N.of_nat (sent_before t i) -> (i < j)%nat;
-  mints_bounded : forall i r first count, nth_error t i = Some (Mint r first count) ->
+  mints_bounded : forall i r first count, nth_error t i = Some (Mints r first count) ->
       start l <= first /\ first + count <= maximum l
 }.
 
@@ -162,7 +162,7 @@ Proof.
 Qed.
 
 (** Only its own restart brings a robot's clock down. *)
-Lemma next_grows c e c' r : effect c e c' -> (forall value, e <> Restart r value) ->
+Lemma next_grows c e c' r : effect c e c' -> (forall value, e <> Restarts r value) ->
   next_of (seat_of l c r) <= next_of (seat_of l c' r).
 Proof.
   intros (Others & _ & H) NoRestart. destruct (N.eq_dec r (robot_of e)) as [->|Ne];
@@ -216,7 +216,7 @@ Proof.
   assert (Numbers : sent c' = N.of_nat (sent_before (t ++ [e]) (length (t ++ [e])))).
   { unfold sent_before. rewrite firstn_all, filter_app, app_length. destruct H as (_ & _ & H).
     assert (N := numbers t c T). unfold sent_before in N. rewrite firstn_all in N.
-    assert (Sent : sent c' = match e with Send _ _ _ => sent c + 1 | _ => sent c end)
+    assert (Sent : sent c' = match e with Sends _ _ _ => sent c + 1 | _ => sent c end)
       by (destruct e; tauto).
     rewrite Sent. destruct e; cbn; lia. }
   split.
@@ -224,12 +224,12 @@ Proof.
     destruct H as (Others & _). rewrite Others by assumption. apply (seats_ok t c T).
   - intros i r n m S L R. rewrite app_length in R. cbn in R.
     apply shows_snoc in S as S'. destruct S' as [[Li S']| ->].
-    + apply remembers_last in R as [R Restarts]; [|lia].
+    + apply remembers_last in R as [R Resets]; [|lia].
       assert (O := remembered t c T i r n m S' L R).
       destruct e as [| | | |r' value];
         try (assert (G := next_grows c _ c' r H ltac:(discriminate)); lia).
       destruct (N.eq_dec r' r) as [->|Ne].
-      * specialize (Restarts value eq_refl). destruct H as (_ & _ & _ & E & _). cbn [robot_of] in E. now rewrite E.
+      * specialize (Resets value eq_refl). destruct H as (_ & _ & _ & E & _). cbn [robot_of] in E. now rewrite E.
       * assert (G := next_grows c _ c' r H ltac:(congruence)). lia.
     + apply (shows_last t c e c') in S as [_ ->]; auto.
   - intros i j r n m n' Si L Sj Lt R.
@@ -237,12 +237,12 @@ Proof.
     + apply shows_snoc in Si as [[Li Si]| ->]; [|lia]. rewrite nth_error_old by assumption.
       apply (in_order t c T i j r n m n'); auto. now apply remembers_snoc in R.
     + apply shows_snoc in Si as [[Li Si]| ->]; [|lia].
-      apply remembers_last in R as [R Restarts]; [|lia].
+      apply remembers_last in R as [R Resets]; [|lia].
       assert (O := remembered t c T i r n m Si L R). rewrite nth_error_last.
       apply (shows_last t c e c') in Sj as [Robot ->]; auto. split.
       * destruct e as [| | | |r' value];
           try (assert (G := next_grows c _ c' r H ltac:(discriminate)); lia).
-        cbn in Robot. subst r'. specialize (Restarts value eq_refl).
+        cbn in Robot. subst r'. specialize (Resets value eq_refl).
         destruct H as (_ & _ & _ & E & _). cbn [robot_of] in E. now rewrite E.
       * intros first count [= ->]. destruct H as (_ & _ & -> & _). exact O.
   - exact Numbers.
@@ -266,7 +266,7 @@ Proof.
     + destruct H as (_ & _ & H). cbn [robot_of] in H.
       destruct H as (_ & -> & St & Nw & -> & _). rewrite sent_before_old by lia.
       rewrite <- (numbers t c T). split; [apply PositiveMap.gss|]. repeat split; auto.
-      intros k value B X. assert (k < length (t ++ [Send r stamp newest]))%nat
+      intros k value B X. assert (k < length (t ++ [Sends r stamp newest]))%nat
         by (apply nth_error_Some; congruence). rewrite app_length in *. cbn in *. lia.
   - intros j r k n E. apply nth_error_snoc in E as [[Lj E]|[-> <-]].
     + destruct (receptions t c T j r k n E) as (stamp & F & L & First).
@@ -321,7 +321,7 @@ Qed.
 
 Lemma trace_before_mono i j : trace_before t i j -> exists r n r' n',
   shows t i r n /\ shows t j r' n' /\ (i < j)%nat /\ n <= n'
-  /\ forall first count, nth_error t j = Some (Mint r' first count) -> n <= first.
+  /\ forall first count, nth_error t j = Some (Mints r' first count) -> n <= first.
 Proof.
   induction 1 as [i j r n n' Si Sj L R|i j r stamp newest r' n Send_ Receive_|
                   i j k _ IH1 _ IH2].
@@ -340,7 +340,7 @@ Proof.
 Qed.
 
 Lemma mints_shows i gene : mints t i gene -> exists first count,
-  nth_error t i = Some (Mint (maker gene) first count)
+  nth_error t i = Some (Mints (maker gene) first count)
   /\ shows t i (maker gene) (first + count) /\ first <= counter gene < first + count.
 Proof.
   intros (first & count & E & L). exists first, count. unfold shows. rewrite E. auto.

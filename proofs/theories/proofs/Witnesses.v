@@ -379,11 +379,11 @@ Qed.
 (** ** Traces *)
 
 Definition recorded : list Trace.entry :=
-  [Trace.Mint 7 2 3; Trace.Store 7 8; Trace.Send 7 5 4;
-   Trace.Mint 9 2 2; Trace.Restart 9 2; Trace.Mint 9 2 1;
-   Trace.Receive 3 0 5; Trace.Receive 3 0 5; Trace.Mint 3 5 1; Trace.Restart 3 2;
-   Trace.Receive 3 0 5; Trace.Mint 3 5 3; Trace.Store 3 8; Trace.Mint 9 3 1;
-   Trace.Send 3 8 5; Trace.Receive 7 1 8; Trace.Mint 7 8 1; Trace.Restart 7 8; Trace.Mint 7 8 1].
+  [Trace.Mints 7 2 3; Trace.Stores 7 8; Trace.Sends 7 5 4;
+   Trace.Mints 9 2 2; Trace.Restarts 9 2; Trace.Mints 9 2 1;
+   Trace.Receives 3 0 5; Trace.Receives 3 0 5; Trace.Mints 3 5 1; Trace.Restarts 3 2;
+   Trace.Receives 3 0 5; Trace.Mints 3 5 3; Trace.Stores 3 8; Trace.Mints 9 3 1;
+   Trace.Sends 3 8 5; Trace.Receives 7 1 8; Trace.Mints 7 8 1; Trace.Restarts 7 8; Trace.Mints 7 8 1].
 
 Example recordings_accepted_witness :
   recording small honest_story = recorded /\ Trace.accepted small recorded.
@@ -411,7 +411,7 @@ Qed.
 
 Example trace_clock_condition_witness : Trace.trace_before recorded 0 11.
 Proof.
-  assert (R : forall r i j n, (forall k value, nth_error recorded k = Some (Trace.Restart r value) ->
+  assert (R : forall r i j n, (forall k value, nth_error recorded k = Some (Trace.Restarts r value) ->
             (k <= i)%nat \/ (j < k)%nat \/ n <= value) -> Trace.remembers recorded r i j n).
   { intros r i j n H k value (A & B) E. destruct (H k value E) as [|[|]]; auto;
       exfalso; [apply (PeanoNat.Nat.lt_irrefl k) | apply (PeanoNat.Nat.lt_irrefl j)].
@@ -431,6 +431,6 @@ Proof.
       destruct k; discriminate.
 Qed.
 
-Example trace_sends_survive_witness : nth_error recorded 2 = Some (Trace.Send 7 5 4)
-  /\ nth_error recorded 17 = Some (Trace.Restart 7 8).
+Example trace_sends_survive_witness : nth_error recorded 2 = Some (Trace.Sends 7 5 4)
+  /\ nth_error recorded 17 = Some (Trace.Restarts 7 8).
 Proof. split; reflexivity. Qed.

@@ -1,0 +1,82 @@
+(* The proved protocol as a program: commands from standard input, and for each an answer, with
+   the robot's next, durable and stored counter and how many marks it knows.
+   The commands are those of Protocol.v, beside: limits MAXIMUM BLOCK WINDOW GENESIS, which starts
+   anew; flush ROBOT, which persists all that is reserved; known ROBOT; align GENOME / GENOME.
+   A mark is two words, counter and robot. *)
+open Proved
+open Words
+
+let rec marks = function
+  | [] -> []
+  | c :: r :: rest -> let m = { counter = number c; maker = number r } in m :: marks rest
+  | [ _ ] -> malformed "a mark is two numbers"
+
+let show_mark m = Printf.sprintf " %s,%s" (show m.counter) (show m.maker)
+let show_marks genes = String.concat "" (List.map show_mark genes)
+
+let show_aligned = function
+  | Matching (a, _) -> " =" ^ show_mark a
+  | Disjoint (First, a) -> " <" ^ show_mark a
+  | Disjoint (Second, a) -> " >" ^ show_mark a
+  | Excess (First, a) -> " <<" ^ show_mark a
+  | Excess (Second, a) -> " >>" ^ show_mark a
+
+let show_answer w = function
+  | Marks (first, n) -> Printf.sprintf "marks %s %s" (show first) (show n)
+  | Exhausted -> "exhausted"
+  | SentAs k ->
+      let m = List.nth w.network (of_nat k) in
+      Printf.sprintf "sent %d %s;%s" (of_nat k) (show m.stamp) (show_marks m.genes)
+  | NotDurable -> "not durable"
+  | Accepted -> "accepted"
+  | Refused -> "refused"
+  | Persisted -> "persisted"
+  | NotReserved -> "not reserved"
+  | Resumed -> "resumed"
+
+let state = ref None
+
+let perform r command =
+  match !state with
+  | None -> malformed "limits come first"
+  | Some (l, w) ->
+      let r = number r in
+      let w, answer = step gene_clocks l w (command r (w.robots r)) in
+      let s = w.robots r in
+      state := Some (l, w);
+      Printf.printf "%s | %s %s %s %d\n" (show_answer w answer) (show s.memory.next)
+        (show s.memory.durable) (show s.stored) (List.length s.known)
+
+let rec split before = function
+  | "/" :: after -> (List.rev before, after)
+  | word :: after -> split (word :: before) after
+  | [] -> malformed "align needs two genomes, with / between"
+
+let obey _ = function
+  | [ "limits"; maximum; block; window; genesis ] ->
+      ignore (small_number genesis);
+      let l = read_limits maximum block window genesis in
+      state := Some (l, init l);
+      print_endline "limits"
+  | [ "mint"; r; n ] -> perform r (fun r _ -> Mint (r, number n))
+  | "send" :: r :: genes -> perform r (fun r _ -> Send (r, marks genes))
+  | [ "receive"; r; k ] -> perform r (fun r _ -> Receive (r, small_number k))
+  | "inject" :: r :: stamp :: genes ->
+      perform r (fun r _ -> Inject (r, { stamp = number stamp; genes = marks genes }))
+  | [ "persist"; r; value ] -> perform r (fun r _ -> Persist (r, number value))
+  | [ "flush"; r ] -> perform r (fun r s -> Persist (r, s.memory.durable))
+  | [ "crash"; r ] -> perform r (fun r _ -> Crash r)
+  | [ "known"; r ] -> (
+      match !state with
+      | None -> malformed "limits come first"
+      | Some (_, w) -> print_endline ("known" ^ show_marks (w.robots (number r)).known))
+  | "align" :: genomes ->
+      let a, b = split [] genomes in
+      let alignment = align (fun m -> m) (marks a) (marks b) in
+      print_endline ("aligned" ^ String.concat "" (List.map show_aligned alignment))
+  | words -> malformed "no such command: '%s'" (String.concat " " words)
+
+let () =
+  let at = ref 0 in
+  try for_each_line (fun number words -> at := number; obey number words)
+  with Malformed why -> Printf.eprintf "line %d: %s\n" !at why; exit 2
