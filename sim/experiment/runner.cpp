@@ -10,6 +10,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include "input_error.hpp"
@@ -145,7 +146,11 @@ std::size_t thread_count(const RunnerOptions& options, std::size_t tasks) {
 
 Outcome make_runs(std::vector<Task> tasks, const RunnerOptions& options, Progress& progress,
                   const std::function<void(const FinishedTask&)>& on_finished) {
-    std::ranges::stable_sort(tasks, std::greater{}, &Task::robot_steps);
+    // Longest first, so that no thread is left alone with a long run at the end.
+    std::ranges::sort(tasks, [](const Task& a, const Task& b) {
+        if (a.robot_steps() != b.robot_steps()) return a.robot_steps() > b.robot_steps();
+        return std::tie(a.settings_hash, a.seed) < std::tie(b.settings_hash, b.seed);
+    });
     ProgressState state;
     state.runs_total = tasks.size();
     for (const Task& task : tasks) state.robot_steps_total += task.robot_steps();

@@ -57,9 +57,6 @@ ArenaMap::ArenaMap(const Arena& arena, double reach_px, double radius_px)
     add_wall({right, -outside_px, right, outside_px, outside_px});
     add_wall({-outside_px, top, outside_px, top, outside_px});
     add_wall({-outside_px, bottom, outside_px, bottom, outside_px});
-    std::stable_sort(walls_.begin(), walls_.end(), [](const WallBox& a, const WallBox& b) {
-        return a.orientation < b.orientation;
-    });
     list_visible_walls(static_cast<float>(reach_px));
     mark_touchable_cells();
 }
@@ -116,7 +113,10 @@ void ArenaMap::add_wall(const ThickSegment& wall) {
             box.v_max = std::max(box.v_max, y - x);
         }
     }
-    walls_.push_back(box);
+    const auto place = std::upper_bound(
+        walls_.begin(), walls_.end(), orientation,
+        [](std::uint32_t wanted, const WallBox& other) { return wanted < other.orientation; });
+    walls_.insert(place, box);
 }
 
 void ArenaMap::list_visible_walls(float reach_px) {
