@@ -1,0 +1,75 @@
+#include "report_data.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "sample_input.hpp"
+#include "statistics/quantiles.hpp"
+
+namespace gene_clocks::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+TEST(ReportData, SumsUpWhatWasRun) {
+    Input input = sample_input();
+    input.arms[3].runs.clear();
+    const Json data = report_data(input);
+    EXPECT_EQ(data["provenance"]["runs"], 30);
+    EXPECT_EQ(data["provenance"]["versions_of_runs"], Json::array({"1.2.3"}));
+    EXPECT_EQ(data["provenance"]["cost"]["cpu_seconds"], 15.0);
+    EXPECT_EQ(data["provenance"]["cost"]["robot_steps"], (24 * 40000 + 6 * 60000) * 100.0);
+    EXPECT_EQ(data["provenance"]["cost"]["robot_steps_per_cpu_second"],
+              (24 * 40000 + 6 * 60000) * 100.0 / 15.0);
+    EXPECT_EQ(data["missing_arms"], Json::array({"collection-C-timestamp"}));
+    EXPECT_EQ(data["comparisons"].size(), 3U);
+}
+
+TEST(ReportData, CurvesAreQuartilesOverTheRuns) {
+    const Input input = sample_input();
+    const Json arm = report_data(input)["comparisons"][0]["arms"][0];
+    constexpr std::size_t sample = 123;
+    std::vector<double> values;
+    for (const report::Run& run : input.arms[0].runs)
+        values.push_back(run.result.samples[sample].swarm_fitness);
+    EXPECT_EQ(arm["cycles"][sample], 12300);
+    const Json& curve = arm["curves"]["swarm_fitness"];
+    EXPECT_EQ(curve["median"].size(), 400U);
+    EXPECT_EQ(curve["lower_quartile"][sample], statistics::quantile(values, 0.25));
+    EXPECT_EQ(curve["median"][sample], statistics::quantile(values, 0.5));
+    EXPECT_EQ(curve["upper_quartile"][sample], statistics::quantile(values, 0.75));
+    EXPECT_EQ(arm["initial_controller_size"], 32.0);
+    EXPECT_EQ(arm["median_counters"]["births"], 1003.5);  // 1000 + seed, seeds 1 to 6
+}
+
+TEST(ReportData, ChangesAgainstTheProfileAreListed) {
+    Input input = sample_input();
+    EXPECT_EQ(report_data(input)["comparisons"][0]["changes"], Json::array());
+    input.arms[0].settings.radio.loss = 0.25;
+    const Json changes = report_data(input)["comparisons"][0]["changes"];
+    EXPECT_EQ(changes, Json::array({{{"key", "radio.loss"}, {"profile", 0.0}, {"run", 0.25}}}));
+}
+
+TEST(ReportData, MeasuresThatTheRunsAreTooShortForAreNull) {
+    Input input;
+    Arm arm = sample_arm({.runs = 0});
+    arm.settings.run.cycles = 4000;
+    arm.runs.push_back(sample_run(arm.settings, 160.0, 1));
+    input.arms.push_back(arm);
+    const Json data = report_data(input);
+    EXPECT_TRUE(data["comparisons"][0]["arms"][0]["measures"]["swarm_fitness_at_10000"].is_null());
+    EXPECT_TRUE(data["comparisons"][0]["tests"].is_null());
+    EXPECT_TRUE(data["comparisons"][0]["trajectories"].is_null());
+}
+
+TEST(ReportData, TheSameRunsInAnotherOrderGiveTheSameNumbers) {
+    Input input = sample_input();
+    const std::string once = report_data(input).dump();
+    for (Arm& arm : input.arms) std::ranges::reverse(arm.runs);
+    EXPECT_EQ(report_data(input).dump(), once);
+}
+
+}  // namespace
+}  // namespace gene_clocks::report

@@ -1,0 +1,13 @@
+// Writes the report of made-up runs, for page_test.py to look at: write_sample_report FOLDER
+#include <iostream>
+
+#include "report.hpp"
+#include "sample_input.hpp"
+
+int main(int count, char** arguments) {
+    if (count != 2) {
+        std::cerr << "usage: write_sample_report FOLDER\n";
+        return 2;
+    }
+    gene_clocks::report::write_report(gene_clocks::report::sample_input(), arguments[1]);
+}
