@@ -180,7 +180,7 @@ TEST(Section32, AnOffspringHasTwoParentsOfOneSpeciesOrOne) {
         settings.p_mate = p_mate;
         int mated = 0;
         for (std::uint32_t i = 0; i < births; ++i) {
-            Agent robot = make_robot(1 + i, settings);
+            Agent robot = make_robot(1, settings, i);
             for (std::uint32_t other = 0; other < 3; ++other) {
                 robot.receive({genome_of(other, 5.0f + static_cast<float>(other)), 90.0f, {}});
             }
@@ -201,7 +201,7 @@ TEST(Section32, AnOffspringIsMutatedWithItsProbability) {
     constexpr int births = 5000;
     int mutated = 0;
     for (std::uint32_t i = 0; i < births; ++i) {
-        Agent robot = make_robot(1 + i, settings);
+        Agent robot = make_robot(1, settings, i);
         const auto weights = robot.active().weights;
         robot.replace(0.0);
         mutated += robot.active().weights != weights ? 1 : 0;
