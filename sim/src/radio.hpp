@@ -17,15 +17,16 @@ public:
           delay_cycles_(static_cast<std::size_t>(settings.delay_cycles)),
           in_flight_(delay_cycles_ + 1) {}
 
-    /// Hands a message over to one receiver, now or after the delay, or never.
+    /// Hands the message of that number over to one receiver, now or after the delay, or never.
     template <class Receive>
-    void send(const neat::Message& message, std::uint32_t receiver, neat::RandomStream& random,
-              Receive receive) {
+    void send(const neat::Message& message, std::uint64_t number, std::uint32_t receiver,
+              neat::RandomStream& random, Receive receive) {
         if (loss_ > 0.0 && random.chance(loss_)) return;
         if (delay_cycles_ == 0) {
-            receive(receiver, message);
+            receive(receiver, message, number);
         } else {
-            in_flight_[(slot_ + delay_cycles_) % in_flight_.size()].push_back({receiver, message});
+            in_flight_[(slot_ + delay_cycles_) % in_flight_.size()].push_back(
+                {receiver, number, message});
         }
     }
 
@@ -33,13 +34,15 @@ public:
     template <class Receive>
     void deliver_delayed(Receive receive) {
         slot_ = (slot_ + 1) % in_flight_.size();
-        for (const Flight& flight : in_flight_[slot_]) receive(flight.receiver, flight.message);
+        for (const Flight& flight : in_flight_[slot_])
+            receive(flight.receiver, flight.message, flight.number);
         in_flight_[slot_].clear();
     }
 
 private:
     struct Flight {
         std::uint32_t receiver;
+        std::uint64_t number;
         neat::Message message;
     };
 

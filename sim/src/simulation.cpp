@@ -9,8 +9,8 @@
 #include "gene_clocks/neat/agent.hpp"
 #include "gene_clocks/neat/gene_clock_source.hpp"
 #include "gene_clocks/neat/timestamp_source.hpp"
+#include "observed_source.hpp"
 #include "radio.hpp"
-#include "recording_source.hpp"
 #include "task.hpp"
 #include "trajectory_hash.hpp"
 #include "world.hpp"
@@ -81,10 +81,40 @@ void check(const Settings& settings, const Arena& arena) {
             "world.translation_px must be less than the frame's thickness and the robot's radius");
 }
 
+/// Writes down when each gene was created.
+class CreationLog final : public RunObserver {
+public:
+    /// Both must outlive the log; `next`, which may be null, is told of everything too.
+    CreationLog(std::vector<GeneCreation>& creations, RunObserver* next)
+        : creations_(creations), next_(next) {}
+
+    void gene_marked(RobotId robot, InnovationNumber mark, double now_cycles) override {
+        creations_.push_back({mark, robot, now_cycles});
+        if (next_ != nullptr) next_->gene_marked(robot, mark, now_cycles);
+    }
+    void message_sent(RobotId robot, Stamp stamp, InnovationNumber newest) override {
+        if (next_ != nullptr) next_->message_sent(robot, stamp, newest);
+    }
+    void message_admitted(RobotId robot, std::uint64_t message, Stamp stamp) override {
+        if (next_ != nullptr) next_->message_admitted(robot, message, stamp);
+    }
+
+private:
+    std::vector<GeneCreation>& creations_;
+    RunObserver* next_;
+};
+
+InnovationNumber last_mark(const neat::Genome& genome) {
+    const neat::Topology& topology = *genome.topology;
+    return std::max(topology.neurons.back().mark, topology.connection_marks.back());
+}
+
 /// One run. Every cycle goes through the same phases, each of which is one function.
 class Simulation {
 public:
-    Simulation(const Settings& settings, const Arena& arena, std::uint64_t seed);
+    /// `observer` may be null.
+    Simulation(const Settings& settings, const Arena& arena, std::uint64_t seed,
+               RunObserver* observer);
 
     void run_cycle(std::int64_t cycle);
     RunResult take_result();
@@ -95,7 +125,7 @@ private:
     void shuffle_order();
     void exchange_messages();
     void broadcast(std::uint32_t sender);
-    void receive(std::uint32_t receiver, const neat::Message& message);
+    void receive(std::uint32_t receiver, const neat::Message& message, std::uint64_t number);
     void run_controllers();
     void spend_energy();
     void replace_depleted(std::int64_t cycle);
@@ -107,6 +137,9 @@ private:
     neat::RandomStream radio_random_;
     World world_;
     Radio radio_;
+    RunResult result_;
+    CreationLog creation_log_;
+    RunObserver* observer_;                // null: nobody watches
     std::vector<neat::Agent> agents_;      // refer to settings_
     std::vector<std::uint32_t> order_;     // of broadcasts and moves, shuffled anew each cycle
     std::vector<std::uint32_t> depleted_;  // whose active genome is to be replaced in this cycle
@@ -119,10 +152,10 @@ private:
     std::vector<float> energy_change_;
 
     TrajectoryHash hash_;
-    RunResult result_;
 };
 
-Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64_t seed)
+Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64_t seed,
+                       RunObserver* observer)
     : settings_(settings),
       layout_(settings.task),
       placement_random_(make_stream(seed, Stream::placement)),
@@ -133,7 +166,9 @@ Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64
                  arena, settings.world.sensor_range_px + settings.world.robot_radius_px,
                  settings.world.robot_radius_px),
              placement_random_),
-      radio_(settings.radio) {
+      radio_(settings.radio),
+      creation_log_(result_.creations, observer),
+      observer_(settings.run.record_creation_times ? &creation_log_ : observer) {
     const std::size_t robots = world_.robots();
     const auto topology = neat::make_initial_topology(layout_.count(), output_count);
     const auto genesis_count = neat::genesis_mark_count(layout_.count(), output_count);
@@ -142,8 +177,8 @@ Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64
     for (std::size_t i = 0; i < robots; ++i) {
         const RobotId robot{static_cast<std::uint32_t>(i + 1)};
         auto source = make_source(settings_, robot, genesis_count, clock_random);
-        if (settings_.run.record_creation_times) {
-            source = std::make_unique<RecordingSource>(std::move(source), robot, result_.creations);
+        if (observer_ != nullptr) {
+            source = std::make_unique<ObservedSource>(std::move(source), robot, *observer_);
         }
         agents_.emplace_back(robot, settings_.odneat, topology, std::move(source),
                              make_stream(seed, Stream::robots, i));
@@ -212,9 +247,8 @@ void Simulation::shuffle_order() {
 
 void Simulation::exchange_messages() {
     if (settings_.radio.delay_cycles > 0) {
-        radio_.deliver_delayed([this](std::uint32_t receiver, const neat::Message& message) {
-            receive(receiver, message);
-        });
+        radio_.deliver_delayed([this](std::uint32_t receiver, const neat::Message& sent,
+                                      std::uint64_t which) { receive(receiver, sent, which); });
     }
     for (const std::uint32_t sender : order_) {
         if (world_.senses(sender).hears_robot) broadcast(sender);
@@ -224,25 +258,30 @@ void Simulation::exchange_messages() {
 void Simulation::broadcast(std::uint32_t sender) {
     neat::Agent& agent = agents_[sender];
     if (!agent.random().chance(agent.broadcast_probability())) return;
-    ++result_.counters.messages_sent;
+    const std::uint64_t number = result_.counters.messages_sent++;
     const neat::Message& message = agent.message();
+    if (observer_ != nullptr) {
+        observer_->message_sent(agent.robot(), message.stamp, last_mark(*message.genome));
+    }
     const auto& hit = world_.senses(sender).robot;
-    for (std::size_t ray = 0; ray < ray_count; ++ray) {
-        const bool heard_before =
-            std::find(hit.begin(), hit.begin() + static_cast<std::ptrdiff_t>(ray), hit[ray]) !=
-            hit.begin() + static_cast<std::ptrdiff_t>(ray);
-        if (hit[ray] < 0 || heard_before) continue;
-        radio_.send(message, static_cast<std::uint32_t>(hit[ray]), radio_random_,
-                    [this](std::uint32_t receiver, const neat::Message& received) {
-                        receive(receiver, received);
+    for (auto robot = hit.begin(); robot != hit.end(); ++robot) {
+        // A robot that several rays meet hears the message once.
+        if (*robot < 0 || std::find(hit.begin(), robot, *robot) != robot) continue;
+        radio_.send(message, number, static_cast<std::uint32_t>(*robot), radio_random_,
+                    [this](std::uint32_t receiver, const neat::Message& sent, std::uint64_t which) {
+                        receive(receiver, sent, which);
                     });
     }
 }
 
-void Simulation::receive(std::uint32_t receiver, const neat::Message& message) {
+void Simulation::receive(std::uint32_t receiver, const neat::Message& message,
+                         std::uint64_t number) {
     ++result_.counters.messages_received;
-    if (agents_[receiver].receive(message) == neat::Reception::accepted) {
-        ++result_.counters.genomes_accepted;
+    neat::Agent& agent = agents_[receiver];
+    const neat::Reception reception = agent.receive(message);
+    if (reception == neat::Reception::accepted) ++result_.counters.genomes_accepted;
+    if (observer_ != nullptr && reception != neat::Reception::refused) {
+        observer_->message_admitted(agent.robot(), number, agent.source().stamp());
     }
 }
 
@@ -298,13 +337,11 @@ RunResult Simulation::take_result() {
     return std::move(result_);
 }
 
-}  // namespace
-
-std::optional<RunResult> simulate(const Settings& settings, const Arena& arena, std::uint64_t seed,
-                                  RunControl* control) {
+std::optional<RunResult> run(const Settings& settings, const Arena& arena, std::uint64_t seed,
+                             RunControl* control, RunObserver* observer) {
     check(settings, arena);
     const double start = thread_cpu_seconds();
-    Simulation simulation(settings, arena, seed);
+    Simulation simulation(settings, arena, seed, observer);
     for (std::int64_t cycle = 0; cycle < settings.run.cycles; ++cycle) {
         if (control != nullptr) {
             if (control->stop.load(std::memory_order_relaxed)) return std::nullopt;
@@ -315,6 +352,19 @@ std::optional<RunResult> simulate(const Settings& settings, const Arena& arena, 
     RunResult result = simulation.take_result();
     result.cpu_seconds = thread_cpu_seconds() - start;
     return result;
+}
+
+}  // namespace
+
+std::optional<RunResult> simulate(const Settings& settings, const Arena& arena, std::uint64_t seed,
+                                  RunControl* control) {
+    return run(settings, arena, seed, control, nullptr);
+}
+
+std::optional<RunResult> simulate_observed(const Settings& settings, const Arena& arena,
+                                           std::uint64_t seed, RunObserver& observer,
+                                           RunControl* control) {
+    return run(settings, arena, seed, control, &observer);
 }
 
 }  // namespace gene_clocks::sim

@@ -12,6 +12,8 @@
 
 namespace gene_clocks::sim {
 
+class RunObserver;
+
 /// What the paper measures every 100 cycles (section 4.1); means over all robots.
 struct Sample {
     std::int64_t cycle{};
@@ -63,6 +65,11 @@ struct RunControl {
 /// std::invalid_argument where the settings contradict each other.
 std::optional<RunResult> simulate(const Settings& settings, const Arena& arena, std::uint64_t seed,
                                   RunControl* control = nullptr);
+
+/// The same run, told to an observer.
+std::optional<RunResult> simulate_observed(const Settings& settings, const Arena& arena,
+                                           std::uint64_t seed, RunObserver& observer,
+                                           RunControl* control = nullptr);
 
 /// The paper's four performance measures (section 4.1, Figure 2), from the samples of a run.
 struct Measures {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "gene_clocks/innovation_number.hpp"
+
+namespace gene_clocks::sim {
+
+/// Told of everything that marking sees in a run, in the order in which it happens; to write a
+/// trace, say. A run without an observer pays nothing for it.
+class RunObserver {
+public:
+    virtual ~RunObserver() = default;
+
+    /// A robot marked a new gene at time `now_cycles`.
+    virtual void gene_marked(RobotId robot, InnovationNumber mark, double now_cycles) = 0;
+
+    /// A robot broadcast its active genome, whose last mark is `newest`. Messages are numbered from
+    /// 0, in the order in which they are sent, whether or not anybody receives them.
+    virtual void message_sent(RobotId robot, Stamp stamp, InnovationNumber newest) = 0;
+
+    /// A robot's innovation source admitted a message; `stamp` is what the robot would send next.
+    virtual void message_admitted(RobotId robot, std::uint64_t message, Stamp stamp) = 0;
+};
+
+}  // namespace gene_clocks::sim
