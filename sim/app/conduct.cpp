@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cstdio>
 #include <set>
+#include <system_error>
 
 #include "commands.hpp"
+#include "input_error.hpp"
 #include "runner.hpp"
 #include "stop_signal.hpp"
 #include "store.hpp"
@@ -61,11 +63,23 @@ void say_what_is_there(const Store& store, const std::filesystem::path& file, st
     }
 }
 
+void make_folder_of(const std::filesystem::path& file) {
+    if (!file.has_parent_path()) return;
+    std::error_code error;
+    std::filesystem::create_directories(file.parent_path(), error);
+    if (error) {
+        throw experiment::InputError(fmt::format("{}: the folder {} cannot be made: {}",
+                                                 file.string(), file.parent_path().string(),
+                                                 error.message()));
+    }
+}
+
 }  // namespace
 
 int conduct(const Study& study, const std::filesystem::path& file, std::int64_t threads) {
     experiment::rehearse(study);
     const auto& stop = watch_stop_signals();
+    make_folder_of(file);
     Store store = Store::open_for_writing(file);
     store.put_study(study);
 

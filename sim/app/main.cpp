@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -56,6 +58,7 @@ int main(int argc, char** argv) {
 
     try {
         application.parse(argc, argv);
+        if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return application.exit(error);  // --help and --version
         fmt::print(stderr, "gene-clocks: {}\n", explain(application, error));

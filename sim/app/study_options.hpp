@@ -26,7 +26,7 @@ struct StudyCommandOptions {
 /// The folder for results where the user names none.
 inline constexpr const char* results_folder = "results";
 
-/// The store that the user named, else one named after the study, in a results folder that is made.
+/// The store that the user named, else one named after the study, in the results folder.
 std::filesystem::path store_file(const std::string& named, const experiment::Study& study);
 
 }  // namespace gene_clocks::app

@@ -1,0 +1,163 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+#include "temporary_folder.hpp"
+
+namespace gene_clocks {
+namespace {
+
+using test::Program;
+using testing::HasSubstr;
+
+class CommandLineTest : public testing::Test {
+protected:
+    /// What the program prints; it must succeed.
+    std::string output_of(const Program::Arguments& arguments) const {
+        const Program::Result result = test::gene_clocks(folder.path(), arguments);
+        EXPECT_EQ(result.status, 0) << testing::PrintToString(arguments) << result.messages;
+        return result.output;
+    }
+    /// The JSON of a short run of few robots.
+    [[nodiscard]] nlohmann::json short_run(Program::Arguments arguments) const {
+        arguments.insert(arguments.begin(),
+                         {"run", "--json", "--set", "run.cycles=400", "world.robots=8"});
+        return nlohmann::json::parse(output_of(arguments));
+    }
+    test::TemporaryFolder folder;
+};
+
+TEST_F(CommandLineTest, HelpIsThereForEveryCommand) {
+    EXPECT_THAT(output_of({"--help"}), HasSubstr("gene-clocks run --task navigation"));
+    for (const char* command : {"run", "study", "settings", "export"}) {
+        EXPECT_THAT(output_of({command, "--help"}),
+                    HasSubstr(std::string("gene-clocks ") + command))
+            << command;
+    }
+}
+
+TEST_F(CommandLineTest, RunPrintsTheFieldsThatScriptsCountOn) {
+    const auto json = short_run({"--task", "navigation", "--seed", "3"});
+    for (const char* field :
+         {"f_c", "f_b", "t_f", "f_a", "final_swarm_fitness", "species", "added_elements",
+          "robot_steps", "cpu_seconds", "robot_steps_per_cpu_second"}) {
+        ASSERT_TRUE(json.contains(field)) << field;
+        EXPECT_TRUE(json[field].is_number()) << field;
+    }
+    EXPECT_TRUE(json.contains("swarm_fitness_at_10000"));
+    EXPECT_TRUE(json["trajectory_hash"].is_string());
+    EXPECT_EQ(json["seed"], 3);
+    EXPECT_EQ(json["robot_steps"], 400 * 8);
+    EXPECT_GT(json["f_c"], 0.0);
+}
+
+TEST_F(CommandLineTest, ARunIsAFunctionOfSettingsAndSeed) {
+    const auto hash = [&](const Program::Arguments& arguments) {
+        return short_run(arguments)["trajectory_hash"];
+    };
+    const auto first = hash({"--task", "navigation", "--seed", "1"});
+    EXPECT_EQ(hash({"--task", "navigation", "--seed", "1"}), first);
+    EXPECT_NE(hash({"--task", "navigation", "--seed", "2"}), first);
+    EXPECT_NE(hash({"--task", "collection", "--seed", "1"}), first);
+    EXPECT_NE(hash({"--task", "navigation", "--seed", "1", "--set", "world.sensor_range_px=40"}),
+              first);
+}
+
+TEST_F(CommandLineTest, WithoutParametersTheTasksOwnSetIsUsed) {
+    const auto hash = [&](const Program::Arguments& arguments) {
+        return short_run(arguments)["settings_hash"];
+    };
+    EXPECT_EQ(hash({"--task", "navigation"}), hash({"--task", "navigation", "--parameters", "B"}));
+    EXPECT_EQ(hash({"--task", "collection"}), hash({"--task", "collection", "--parameters", "C"}));
+    EXPECT_NE(hash({"--task", "navigation"}), hash({"--task", "navigation", "--parameters", "A"}));
+    EXPECT_EQ(short_run({"--task", "navigation"})["profile"], "mended");
+    EXPECT_EQ(short_run({"--task", "collection"})["parameters"], "C");
+}
+
+TEST_F(CommandLineTest, EveryProfileAndSourceRuns) {
+    for (const char* task : {"navigation", "collection"}) {
+        for (const char* source : {"gene-clock", "timestamp"}) {
+            for (const char* profile : {"gecco15", "mended", "text"}) {
+                const auto json =
+                    short_run({"--task", task, "--source", source, "--profile", profile});
+                EXPECT_EQ(json["task"], task);
+                EXPECT_EQ(json["source"], source);
+                EXPECT_EQ(json["profile"], profile);
+            }
+        }
+    }
+}
+
+TEST_F(CommandLineTest, RunSpeaksToPeopleToo) {
+    EXPECT_THAT(
+        output_of({"run", "--task", "navigation", "--set", "run.cycles=200", "world.robots=3"}),
+        testing::AllOf(HasSubstr("f_c"), HasSubstr("trajectory hash")));
+}
+
+TEST_F(CommandLineTest, SettingsThatWereWrittenGiveTheSameRun) {
+    const Program::Arguments choice{"--task",  "collection", "--profile",
+                                    "gecco15", "--source",   "timestamp"};
+    Program::Arguments show{"settings", "--format", "toml"};
+    show.insert(show.end(), choice.begin(), choice.end());
+    folder.write("mine.toml", output_of(show));
+    const auto expected = short_run(choice);
+    // The profile that it starts from no longer matters: the file has every key.
+    EXPECT_EQ(short_run({"--task", "navigation", "--profile", "text", "--settings",
+                         "mine.toml"})["trajectory_hash"],
+              expected["trajectory_hash"]);
+}
+
+TEST_F(CommandLineTest, SettingsAreShownAsJson) {
+    const auto json =
+        nlohmann::json::parse(output_of({"settings", "--task", "navigation", "--parameters", "A",
+                                         "--format", "json", "--set", "world.robots=7"}));
+    EXPECT_EQ(json["odneat"]["p_mate"], 0.842);
+    EXPECT_EQ(json["world"]["robots"], 7);
+}
+
+TEST_F(CommandLineTest, SettingsAreListed) {
+    EXPECT_THAT(output_of({"settings"}),
+                testing::AllOf(HasSubstr("odneat.p_mate = 0.212"), HasSubstr("Table 1")));
+    EXPECT_THAT(output_of({"settings", "radio"}), testing::Not(HasSubstr("odneat.p_mate")));
+    EXPECT_EQ(output_of({"settings", "--format", "markdown"}),
+              test::read_all(SOURCE_FOLDER "/docs/settings.md"));
+}
+
+TEST_F(CommandLineTest, BuiltinFilesCanBeCopied) {
+    EXPECT_EQ(output_of({"settings", "--builtin", "arenas/gecco15.toml"}),
+              test::read_all(SOURCE_FOLDER "/sim/arenas/gecco15.toml"));
+    folder.write("copy.toml", output_of({"settings", "--builtin", "studies/gecco15.toml"}));
+    EXPECT_EQ(output_of({"study", "copy.toml", "--dry-run"}),
+              output_of({"study", "gecco15", "--dry-run"}));
+}
+
+TEST_F(CommandLineTest, DryRunOnlyShowsThePlan) {
+    EXPECT_THAT(output_of({"study", "gecco15", "--dry-run"}),
+                HasSubstr("4 arms x 64 seeds = 256 runs, 1280.0 M robot-steps"));
+    EXPECT_THAT(output_of({"study", "gecco15", "--quick", "--dry-run"}),
+                HasSubstr("4 arms x 8 seeds = 32 runs"));
+    EXPECT_TRUE(folder.is_empty());
+}
+
+TEST_F(CommandLineTest, ResultsGoToTheirOwnFolder) {
+    output_of({"study", "gecco15", "--quick", "--seeds", "1", "--set", "run.cycles=100",
+               "world.robots=3"});
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder / "results/gecco15-quick.sqlite"));
+    const std::string csv = output_of({"export", "results/gecco15-quick.sqlite", "--runs", "-"});
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4);
+    output_of({"export", "results/gecco15-quick.sqlite", "--runs", "runs.csv", "--samples",
+               "samples.csv"});
+    EXPECT_EQ(test::read_all(folder / "runs.csv"), csv);
+    EXPECT_THAT(test::read_all(folder / "samples.csv"), testing::StartsWith("study,arm,task,"));
+}
+
+TEST_F(CommandLineTest, OutputThatIsLostIsAFailure) {
+    const std::string command = std::string(PROGRAM) + " settings > /dev/full 2> /dev/null";
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+}
+
+}  // namespace
+}  // namespace gene_clocks

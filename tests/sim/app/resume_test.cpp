@@ -1,0 +1,142 @@
+// A study that is stopped or killed and started again ends with the results of one that never was.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <sstream>
+#include <thread>
+
+#include "program.hpp"
+#include "temporary_folder.hpp"
+
+namespace gene_clocks {
+namespace {
+
+using test::Program;
+using testing::HasSubstr;
+
+/// Two arms of runs that take some 20 ms each.
+constexpr const char* study = R"(
+name = "x"
+title = "X"
+seeds = 12
+settings = { world.robots = 30, run.cycles = 3000 }
+[[arm]]
+name = "one"
+task = "navigation"
+source = "gene-clock"
+[[arm]]
+name = "two"
+task = "collection"
+source = "timestamp"
+)";
+
+class ResumeTest : public testing::Test {
+protected:
+    void SetUp() override { folder.write("x.toml", study); }
+
+    [[nodiscard]] Program::Arguments arguments(const std::string& store,
+                                               const std::string& seeds = "12") const {
+        return {"study", "x.toml", "--store", store, "--threads", "2", "--seeds", seeds};
+    }
+    /// All that a store holds, but for the columns of times.
+    [[nodiscard]] std::string contents(const std::string& store) const {
+        const auto runs = test::gene_clocks(folder.path(), {"export", store, "--runs", "-"}).output;
+        const auto samples =
+            test::gene_clocks(folder.path(), {"export", store, "--samples", "-"}).output;
+        return without_times(runs) + samples;
+    }
+    static std::string without_times(const std::string& csv) {
+        const auto cells = [](const std::string& line) {
+            std::vector<std::string> found;
+            std::stringstream stream(line);
+            for (std::string cell; std::getline(stream, cell, ',');) found.push_back(cell);
+            return found;
+        };
+        std::stringstream stream(csv);
+        std::string line;
+        std::vector<std::string> header;
+        std::string text;
+        while (std::getline(stream, line)) {
+            const auto values = cells(line);
+            if (header.empty()) header = values;
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                const bool is_time = header[i].ends_with("_seconds") || header[i] == "finished_at";
+                if (!is_time) text += values[i] + ",";
+            }
+            text += '\n';
+        }
+        return text;
+    }
+    [[nodiscard]] std::string uninterrupted(const std::string& seeds = "12") const {
+        EXPECT_EQ(test::gene_clocks(folder.path(), arguments("whole.sqlite", seeds)).status, 0);
+        return contents("whole.sqlite");
+    }
+    test::TemporaryFolder folder;
+};
+
+TEST_F(ResumeTest, AKilledStudyEndsAsOneThatWasNot) {
+    int kills = 0;
+    for (auto delay = std::chrono::milliseconds(20);; delay += std::chrono::milliseconds(20)) {
+        Program program(folder.path(), arguments("killed.sqlite"));
+        std::this_thread::sleep_for(delay);
+        program.signal(SIGKILL);
+        if (program.wait().status == 0) break;
+        ++kills;
+    }
+    EXPECT_GE(kills, 3);
+    const std::string whole = uninterrupted();
+    EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 1 + 24 + 1 + 24 * 30);
+    EXPECT_EQ(contents("killed.sqlite"), whole);
+}
+
+TEST_F(ResumeTest, CtrlCKeepsFinishedRunsAndTellsHowToGoOn) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        Program program(folder.path(), arguments("stopped.sqlite", "100000"));
+        ASSERT_TRUE(program.wait_for_message("making"));
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        program.signal(signal);
+        const auto result = program.wait();
+        EXPECT_EQ(result.status, 130);
+        EXPECT_THAT(result.messages,
+                    HasSubstr("are kept in stopped.sqlite; the same command goes on from there"));
+    }
+    const auto result = test::gene_clocks(folder.path(), arguments("stopped.sqlite"));
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(contents("stopped.sqlite"), uninterrupted());
+}
+
+TEST_F(ResumeTest, AFinishedStudyIsNotMadeAgain) {
+    const std::string whole = uninterrupted("2");
+    const std::string bytes = test::read_all(folder / "whole.sqlite");
+    const auto again = test::gene_clocks(folder.path(), arguments("whole.sqlite", "2"));
+    EXPECT_EQ(again.status, 0);
+    EXPECT_THAT(again.messages, HasSubstr("4 of 4 runs are there already"));
+    const auto runs = [&](const char* store) {
+        return test::gene_clocks(folder.path(), {"export", store, "--runs", "-"}).output;
+    };
+    folder.write("before.sqlite", bytes);
+    EXPECT_EQ(runs("whole.sqlite"), runs("before.sqlite"));  // the times, too
+}
+
+TEST_F(ResumeTest, MoreSeedsOnlyMakeWhatIsMissing) {
+    EXPECT_EQ(test::gene_clocks(folder.path(), arguments("more.sqlite", "1")).status, 0);
+    const auto result = test::gene_clocks(folder.path(), arguments("more.sqlite", "3"));
+    EXPECT_THAT(result.messages, HasSubstr("2 of 6 runs are there already"));
+    EXPECT_THAT(result.messages, HasSubstr("making 4 runs"));
+    EXPECT_EQ(contents("more.sqlite"), uninterrupted("3"));
+}
+
+TEST_F(ResumeTest, AStoreIsForOneProcessAtATime) {
+    Program first(folder.path(), arguments("shared.sqlite", "100000"));
+    ASSERT_TRUE(first.wait_for_message("making"));
+    const auto second = test::gene_clocks(folder.path(), arguments("shared.sqlite"));
+    EXPECT_EQ(second.status, 2);
+    EXPECT_THAT(second.messages, HasSubstr("shared.sqlite: is in use by another process"));
+    first.signal(SIGTERM);
+    EXPECT_EQ(first.wait().status, 130);  // not disturbed
+}
+
+}  // namespace
+}  // namespace gene_clocks
