@@ -16,6 +16,8 @@ enum ExitStatus : int {
 // throw experiment::InputError for bad input.
 void add_run_command(CLI::App& app, int& status);
 void add_study_command(CLI::App& app, int& status);
+void add_report_command(CLI::App& app, int& status);
+void add_reproduce_command(CLI::App& app, int& status);
 void add_settings_command(CLI::App& app, int& status);
 void add_export_command(CLI::App& app, int& status);
 

@@ -53,6 +53,8 @@ int main(int argc, char** argv) {
         "  gene-clocks COMMAND --help                    what a command can do\n");
     app::add_run_command(application, status);
     app::add_study_command(application, status);
+    app::add_report_command(application, status);
+    app::add_reproduce_command(application, status);
     app::add_settings_command(application, status);
     app::add_export_command(application, status);
 

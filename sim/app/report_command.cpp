@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "commands.hpp"
+#include "study_report.hpp"
+
+namespace gene_clocks::app {
+namespace {
+
+struct Options {
+    std::string store;
+    std::vector<std::string> studies;
+    std::string output;
+};
+
+int run(const Options& options) {
+    const std::filesystem::path store = options.store;
+    const std::filesystem::path folder = options.output.empty()
+                                             ? std::filesystem::path(store).replace_extension()
+                                             : std::filesystem::path(options.output);
+    report_on(store, options.studies, "gene-clocks report " + options.store, folder);
+    return success;
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app, int& status) {
+    auto* command = app.add_subcommand(
+        "report", "Write a page that shows a store's runs beside the paper's figures");
+    auto options = std::make_shared<Options>();
+    command->add_option("STORE", options->store, "Store that `gene-clocks study` filled")
+        ->required();
+    command->add_option("--study", options->studies,
+                        "Only this study; may be repeated. Without it all");
+    command->add_option("--output", options->output,
+                        "Folder for index.html, figures/ and report.json; without it the store's "
+                        "name, less its ending");
+    command->footer("Example:\n  gene-clocks report results/gecco15.sqlite\n");
+    command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace gene_clocks::app

@@ -1,0 +1,54 @@
+#include "study_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "report.hpp"
+#include "store.hpp"
+
+namespace gene_clocks::app {
+namespace {
+
+using experiment::Store;
+using experiment::StoredStudy;
+
+std::vector<StoredStudy> named_studies(const Store& store, const std::vector<std::string>& names) {
+    if (names.empty()) return store.studies();
+    std::vector<StoredStudy> studies;
+    for (const std::string& name : names) studies.push_back(store.study(name));
+    return studies;
+}
+
+report::Arm arm_of(const Store& store, const StoredStudy& study,
+                   const experiment::StoredArm& stored) {
+    report::Arm arm{stored.name, stored.profile, stored.settings, {}};
+    for (experiment::RunRecord& run : store.runs(study, stored)) {
+        arm.runs.push_back({run.seed, std::move(run.result), std::move(run.program_version)});
+    }
+    return arm;
+}
+
+}  // namespace
+
+void report_on(const std::filesystem::path& file, const std::vector<std::string>& names,
+               const std::string& command, const std::filesystem::path& folder) {
+    const Store store = Store::open_for_reading(file);
+    report::Input input;
+    input.command = command;
+    input.program_version = experiment::program_version();
+    for (const StoredStudy& study : named_studies(store, names)) {
+        if (input.study.empty()) {
+            input.study = study.name;
+            input.title = study.title;
+        }
+        for (const experiment::StoredArm& arm : study.arms) {
+            input.arms.push_back(arm_of(store, study, arm));
+        }
+    }
+    report::write_report(input, folder);
+    fmt::print(stderr, "Report: {}\n", (folder / "index.html").string());
+}
+
+}  // namespace gene_clocks::app
