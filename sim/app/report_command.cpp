@@ -15,12 +15,16 @@ struct Options {
     std::string output;
 };
 
+/// Beside the store: "results/gecco15" for "results/gecco15.sqlite".
+std::filesystem::path folder_for(std::filesystem::path store) {
+    if (store.has_extension()) return store.replace_extension();
+    return store += "-report";
+}
+
 int run(const Options& options) {
-    const std::filesystem::path store = options.store;
-    const std::filesystem::path folder = options.output.empty()
-                                             ? std::filesystem::path(store).replace_extension()
-                                             : std::filesystem::path(options.output);
-    report_on(store, options.studies, "gene-clocks report " + options.store, folder);
+    report_on(
+        options.store, options.studies, "gene-clocks report " + options.store,
+        options.output.empty() ? folder_for(options.store) : std::filesystem::path(options.output));
     return success;
 }
 
