@@ -15,16 +15,10 @@ struct Options {
     std::string output;
 };
 
-/// Beside the store: "results/gecco15" for "results/gecco15.sqlite".
-std::filesystem::path folder_for(std::filesystem::path store) {
-    if (store.has_extension()) return store.replace_extension();
-    return store += "-report";
-}
-
 int run(const Options& options) {
-    report_on(
-        options.store, options.studies, "gene-clocks report " + options.store,
-        options.output.empty() ? folder_for(options.store) : std::filesystem::path(options.output));
+    report_on(options.store, options.studies, "gene-clocks report " + options.store,
+              options.output.empty() ? report_folder(options.store)
+                                     : std::filesystem::path(options.output));
     return success;
 }
 

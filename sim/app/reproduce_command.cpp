@@ -37,9 +37,7 @@ std::vector<Study> read_studies(const Options& options) {
 int run(const Options& options) {
     const std::vector<Study> studies = read_studies(options);
     report::find_python();  // or nothing could be shown at the end
-    const std::filesystem::path folder =
-        std::filesystem::path(options.output) / studies.front().name;
-    const std::filesystem::path store = folder.string() + ".sqlite";
+    const auto store = std::filesystem::path(options.output) / (studies.front().name + ".sqlite");
     std::vector<std::string> names;
     for (const Study& study : studies) {
         if (const int status = conduct(study, store, options.common.threads); status != success)
@@ -49,7 +47,7 @@ int run(const Options& options) {
     report_on(store, names,
               fmt::format("gene-clocks reproduce{}{}", options.common.quick ? " --quick" : "",
                           options.as_printed ? " --as-printed" : ""),
-              folder);
+              report_folder(store));
     return success;
 }
 

@@ -51,4 +51,9 @@ void report_on(const std::filesystem::path& file, const std::vector<std::string>
     fmt::print(stderr, "Report: {}\n", (folder / "index.html").string());
 }
 
+std::filesystem::path report_folder(std::filesystem::path store) {
+    if (store.has_extension()) return store.replace_extension();
+    return store += "-report";
+}
+
 }  // namespace gene_clocks::app

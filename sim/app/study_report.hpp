@@ -12,4 +12,8 @@ namespace gene_clocks::app {
 void report_on(const std::filesystem::path& store, const std::vector<std::string>& studies,
                const std::string& command, const std::filesystem::path& folder);
 
+/// Where a store's report goes if the user names no folder: beside the store, "results/gecco15" for
+/// "results/gecco15.sqlite".
+std::filesystem::path report_folder(std::filesystem::path store);
+
 }  // namespace gene_clocks::app

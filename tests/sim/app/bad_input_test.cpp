@@ -161,6 +161,8 @@ TEST_F(BadInputTest, Stores) {
     expect_refusal(study("/proc/runs.sqlite"), "/proc/runs.sqlite: cannot be opened or made there");
     expect_refusal({"export", "none.sqlite", "--runs", "runs.csv"},
                    "none.sqlite: there is no such store");
+    expect_refusal({"report", "none.sqlite"}, "none.sqlite: there is no such store");
+    expect_refusal({"report", "text.sqlite"}, "text.sqlite: is not a store of runs");
 }
 
 TEST_F(BadInputTest, OtherStudiesAndPathsOnExport) {
@@ -171,6 +173,7 @@ TEST_F(BadInputTest, OtherStudiesAndPathsOnExport) {
               0);
     expect_refusal({"export", "runs.sqlite", "--study", "gecco51", "--runs", "-"},
                    "holds no study \"gecco51\"; there is gecco15-quick");
+    expect_refusal({"report", "runs.sqlite", "--study", "gecco51"}, "holds no study \"gecco51\"");
     expect_refusal({"export", "runs.sqlite", "--runs", "none/runs.csv"},
                    "none/runs.csv: cannot be written there");
 }

@@ -31,7 +31,7 @@ protected:
 
 TEST_F(CommandLineTest, HelpIsThereForEveryCommand) {
     EXPECT_THAT(output_of({"--help"}), HasSubstr("gene-clocks run --task navigation"));
-    for (const char* command : {"run", "study", "settings", "export"}) {
+    for (const char* command : {"run", "study", "report", "reproduce", "settings", "export"}) {
         EXPECT_THAT(output_of({command, "--help"}),
                     HasSubstr(std::string("gene-clocks ") + command))
             << command;
@@ -151,6 +151,14 @@ TEST_F(CommandLineTest, ResultsGoToTheirOwnFolder) {
                "samples.csv"});
     EXPECT_EQ(test::read_all(folder / "runs.csv"), csv);
     EXPECT_THAT(test::read_all(folder / "samples.csv"), testing::StartsWith("study,arm,task,"));
+}
+
+TEST_F(CommandLineTest, ReproduceLeavesAStoreAndAReport) {
+    output_of(
+        {"reproduce", "--quick", "--seeds", "2", "--set", "run.cycles=300", "world.robots=5"});
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder / "results/gecco15-quick/index.html"));
+    const std::string csv = output_of({"export", "results/gecco15-quick.sqlite", "--runs", "-"});
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 2);
 }
 
 TEST_F(CommandLineTest, OutputThatIsLostIsAFailure) {
