@@ -78,5 +78,5 @@ let obey _ = function
 
 let () =
   let at = ref 0 in
-  try for_each_line (fun number words -> at := number; obey number words)
+  try for_each_line stdin (fun number words -> at := number; obey number words)
   with Malformed why -> Printf.eprintf "line %d: %s\n" !at why; exit 2

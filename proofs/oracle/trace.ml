@@ -1,6 +1,7 @@
-(* The proved trace checker as a program: a trace (docs/trace-format.md) from standard input; its
-   verdict goes to standard output. Ends with 0: accepted, 1: a rule is broken, 2: malformed.
-   The loop below is check_trace, line by line, so that a trace need not fit into memory. *)
+(* The proved trace checker as a program: a trace (docs/trace-format.md) from standard input, or
+   each of the files given. Verdicts go to standard output, what is malformed to standard error.
+   Ends with 0: accepted, 1: a rule is broken, 2: malformed.
+   The loop in [check] is check_trace, line by line, so that a trace need not fit into memory. *)
 open Proved
 open Words
 
@@ -30,6 +31,7 @@ let entry = function
   | words -> malformed "no such entry: '%s'" (String.concat " " words)
 
 type reading = Header | Limits | Entries of limits * checker | Ended of int
+exception Broken of violation
 
 let read reading line words =
   match reading, words with
@@ -43,18 +45,31 @@ let read reading line words =
   | Entries (l, checker), words -> (
       match check_entry l checker (entry words) with
       | Inl checker -> Entries (l, checker)
-      | Inr violation -> Printf.printf "line %d: %s\n" line (rule_of violation); exit 1)
+      | Inr violation -> raise (Broken violation))
   | Ended _, _ -> malformed "something after the end"
 
-let () =
+(* The exit status; prints the verdict after [label]. *)
+let check label channel =
   let reading = ref Header and at = ref 0 in
   try
-    for_each_line (fun line words -> at := line; reading := read !reading line words);
+    for_each_line channel (fun line words -> at := line; reading := read !reading line words);
     incr at;
     match !reading with
-    | Ended entries -> Printf.printf "accepted %d\n" entries
-    | _ -> malformed "cut short"
-  with Malformed why ->
-    Printf.printf "line %d: malformed\n" !at;
-    Printf.eprintf "line %d: %s\n" !at why;
-    exit 2
+    | Ended entries -> Printf.printf "%saccepted %d\n" label entries; 0
+    | _ -> malformed "cut short: there is no end"
+  with
+  | Broken violation -> Printf.printf "%sline %d: %s\n" label !at (rule_of violation); 1
+  | Malformed why ->
+      Printf.printf "%sline %d: malformed\n" label !at;
+      Printf.eprintf "%sline %d: %s\n" label !at why;
+      2
+
+let () =
+  match List.tl (Array.to_list Sys.argv) with
+  | [] -> exit (check "" stdin)
+  | files ->
+      let check_file file =
+        let channel = open_in_bin file in
+        Fun.protect ~finally:(fun () -> close_in channel) (fun () -> check (file ^ ": ") channel)
+      in
+      exit (List.fold_left max 0 (List.map check_file files))

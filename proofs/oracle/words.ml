@@ -42,9 +42,9 @@ let read_limits maximum block window genesis =
   l
 
 (* Calls [obey] with each line's number and words, which one space parts. *)
-let for_each_line obey =
+let for_each_line channel obey =
   let rec go number =
-    match input_line stdin with
+    match input_line channel with
     | exception End_of_file -> ()
     | line -> obey number (String.split_on_char ' ' line); go (number + 1)
   in
