@@ -25,7 +25,7 @@ struct Options {
 };
 
 void print_plan(const Study& study) {
-    std::uint64_t steps = 0;
+    double steps = 0.0;
     fmt::print("{}: {}\n{}\n", study.name, study.title, study.description);
     for (const experiment::Arm& arm : study.arms) {
         const sim::Settings& settings = arm.settings;
@@ -34,12 +34,11 @@ void print_plan(const Study& study) {
             arm.name, experiment::name_of(settings.task), experiment::name_of(settings.source),
             arm.profile, arm.parameters.empty() ? "none" : arm.parameters, settings.world.robots,
             settings.run.cycles, arm.settings_hash);
-        steps +=
-            static_cast<std::uint64_t>(settings.world.robots * settings.run.cycles * study.seeds);
+        steps += static_cast<double>(settings.world.robots) *
+                 static_cast<double>(settings.run.cycles) * static_cast<double>(study.seeds);
     }
     fmt::print("{} arms x {} seeds = {} runs, {:.1f} M robot-steps\n", study.arms.size(),
-               study.seeds, study.arms.size() * static_cast<std::size_t>(study.seeds),
-               static_cast<double>(steps) / 1e6);
+               study.seeds, study.arms.size() * static_cast<std::size_t>(study.seeds), steps / 1e6);
 }
 
 int run(const Options& options) {

@@ -3,149 +3,17 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <SQLiteCpp/VariadicBind.h>
 #include <fmt/format.h>
-#include <sqlite3.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <system_error>
 
 #include "input_error.hpp"
 #include "settings_io.hpp"
+#include "store_file.hpp"
 #include "suggestion.hpp"
 
 namespace gene_clocks::experiment {
 namespace {
-
-/// Marks the file as ours: "GnCk". Tools such as file(1) show it.
-constexpr int application_id = 0x476e436b;
-/// Raised whenever the tables change.
-constexpr int format_version = 1;
-
-constexpr const char* tables = R"sql(
--- What runs depend on besides their seeds: canonical JSON, and its XXH3-128.
-CREATE TABLE settings (
-    hash TEXT PRIMARY KEY,
-    canonical TEXT NOT NULL
-) STRICT;
-
-CREATE TABLE study (
-    name TEXT PRIMARY KEY,
-    title TEXT NOT NULL,
-    description TEXT NOT NULL,
-    first_seed INTEGER NOT NULL,
-    seeds INTEGER NOT NULL
-) STRICT;
-
-CREATE TABLE arm (
-    study TEXT NOT NULL REFERENCES study (name) ON DELETE CASCADE,
-    position INTEGER NOT NULL,
-    name TEXT NOT NULL,
-    profile TEXT NOT NULL,
-    parameters TEXT NOT NULL,
-    settings_hash TEXT NOT NULL REFERENCES settings (hash) ON UPDATE CASCADE,
-    settings TEXT NOT NULL,  -- all of them, JSON
-    PRIMARY KEY (study, name)
-) STRICT;
-
--- A row is a finished run; its samples are in the table sample.
-CREATE TABLE run (
-    id INTEGER PRIMARY KEY,
-    settings_hash TEXT NOT NULL REFERENCES settings (hash) ON UPDATE CASCADE,
-    seed INTEGER NOT NULL,
-    births INTEGER NOT NULL,
-    matings INTEGER NOT NULL,
-    mutations INTEGER NOT NULL,
-    genes_created INTEGER NOT NULL,
-    messages_sent INTEGER NOT NULL,
-    messages_received INTEGER NOT NULL,
-    genomes_accepted INTEGER NOT NULL,
-    collisions INTEGER NOT NULL,
-    trajectory_hash TEXT NOT NULL,
-    robot_steps INTEGER NOT NULL,
-    cpu_seconds REAL NOT NULL,
-    wall_seconds REAL NOT NULL,
-    finished_at TEXT NOT NULL,
-    program_version TEXT NOT NULL,
-    UNIQUE (settings_hash, seed)
-) STRICT;
-
-CREATE TABLE sample (
-    run INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
-    cycle INTEGER NOT NULL,
-    swarm_fitness REAL NOT NULL,
-    species REAL NOT NULL,
-    added_elements REAL NOT NULL,
-    controller_size REAL NOT NULL,
-    PRIMARY KEY (run, cycle)
-) STRICT, WITHOUT ROWID;
-
--- When each gene arose, in order, for runs whose settings ask for it.
-CREATE TABLE creation (
-    run INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
-    position INTEGER NOT NULL,
-    counter INTEGER NOT NULL,     -- of the gene's mark
-    mark_robot INTEGER NOT NULL,  -- of the gene's mark
-    robot INTEGER NOT NULL,
-    cycle REAL NOT NULL,
-    PRIMARY KEY (run, position)
-) STRICT, WITHOUT ROWID;
-)sql";
-
-InputError unfit(const std::filesystem::path& file, const std::string& why) {
-    return InputError(file.string() + ": " + why);
-}
-
-/// What SQLite's complaint on opening a file means to the user.
-InputError explain(const std::filesystem::path& file, const SQLite::Exception& error) {
-    switch (error.getErrorCode()) {
-        case SQLITE_NOTADB:
-            return unfit(file, "is not a store of runs (it is no SQLite file)");
-        case SQLITE_BUSY:
-        case SQLITE_LOCKED:
-            return unfit(file, "is in use by another process; try again when it has ended");
-        case SQLITE_READONLY:
-            return unfit(file, "cannot be written: it is read-only");
-        case SQLITE_CANTOPEN:
-            return unfit(file, "cannot be opened or made there");
-        case SQLITE_CORRUPT:
-            return unfit(file, "is damaged");
-        default:
-            return unfit(file, error.what());
-    }
-}
-
-int pragma(SQLite::Database& database, const char* name) {
-    return database.execAndGet(fmt::format("PRAGMA {}", name)).getInt();
-}
-
-/// Whether the file holds nothing at all, as one does whose making was cut short.
-bool is_empty(SQLite::Database& database) {
-    return pragma(database, "page_count") == 0;
-}
-
-/// Throws InputError if the database is not a store of this version.
-void check_identity(const std::filesystem::path& file, SQLite::Database& database) {
-    if (pragma(database, "application_id") != application_id) {
-        throw unfit(file, "is not a store of runs (it is another program's SQLite file)");
-    }
-    if (const int version = pragma(database, "user_version"); version != format_version) {
-        throw unfit(file, fmt::format("is a store of format {}; gene-clocks {} uses format {}",
-                                      version, program_version(), format_version));
-    }
-}
-
-void check_path(const std::filesystem::path& file, bool must_exist) {
-    std::error_code error;
-    const auto status = std::filesystem::status(file, error);
-    if (std::filesystem::is_directory(status))
-        throw unfit(file, "is a folder, not a store of runs");
-    if (must_exist && !std::filesystem::exists(status)) throw unfit(file, "there is no such store");
-    const auto folder = file.has_parent_path() ? file.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder, error)) {
-        throw unfit(file, fmt::format("the folder {} does not exist", folder.string()));
-    }
-}
 
 /// Executes a statement that returns no rows.
 template <typename... Arguments>
@@ -263,50 +131,13 @@ Store& Store::operator=(Store&&) noexcept = default;
 Store::~Store() = default;
 
 Store Store::open_for_writing(const std::filesystem::path& file) {
-    check_path(file, false);
-    try {
-        auto database = std::make_unique<SQLite::Database>(
-            file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-        // Before the first read: held until the store is closed, and given back by the system if
-        // the process is killed.
-        database->exec("PRAGMA locking_mode = EXCLUSIVE");
-        const bool is_new = is_empty(*database);
-        if (!is_new) check_identity(file, *database);
-        Store store(std::move(database));
-        if (is_new) {
-            store.create_tables();
-        } else {
-            store.take_over_new_keys();
-        }
-        store.database_->exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
-        // Takes the lock even where nothing is written yet.
-        SQLite::Transaction(*store.database_, SQLite::TransactionBehavior::EXCLUSIVE).commit();
-        return store;
-    } catch (const SQLite::Exception& error) {
-        throw explain(file, error);
-    }
+    Store store(open_store_for_writing(file));
+    store.take_over_new_keys();
+    return store;
 }
 
 Store Store::open_for_reading(const std::filesystem::path& file) {
-    check_path(file, true);
-    try {
-        // Not OPEN_READONLY: that would leave the files of the write-ahead log behind. SQLite
-        // itself falls back to it where the file is write-protected.
-        auto database = std::make_unique<SQLite::Database>(file.string(), SQLite::OPEN_READWRITE);
-        database->exec("PRAGMA query_only = ON");
-        check_identity(file, *database);
-        return Store(std::move(database));
-    } catch (const SQLite::Exception& error) {
-        throw explain(file, error);
-    }
-}
-
-void Store::create_tables() {
-    SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::EXCLUSIVE);
-    database_->exec(fmt::format("PRAGMA application_id = {}", application_id));
-    database_->exec(fmt::format("PRAGMA user_version = {}", format_version));
-    database_->exec(tables);
-    transaction.commit();
+    return Store(open_store_for_reading(file));
 }
 
 void Store::take_over_new_keys() {

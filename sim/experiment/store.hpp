@@ -98,7 +98,6 @@ public:
 
 private:
     explicit Store(std::unique_ptr<SQLite::Database> database);
-    void create_tables();
     void take_over_new_keys();
 
     std::unique_ptr<SQLite::Database> database_;
