@@ -203,6 +203,9 @@ Json exhibits_json(const std::vector<Exhibit>& exhibits) {
                                        {"median", or_null(verdict.published.median)},
                                        {"upper", verdict.published.upper},
                                        {"ours", or_null(verdict.ours)},
+                                       {"ours_interval", verdict.ours
+                                                             ? to_json(verdict.ours_interval)
+                                                             : Json(nullptr)},
                                        {"agrees", or_null(verdict.agrees)}});
         }
         for (const TestVerdict& verdict : exhibit.tests) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "measures.hpp"
 #include "statistics/mann_whitney.hpp"
 #include "statistics/quantiles.hpp"
 
@@ -49,16 +50,27 @@ void judge_ranges(const Comparison& comparison, std::string_view origin,
         verdict.published = range->second;
         const ArmNumbers* arm = comparison.arm(runs.source);
         if (arm == nullptr || !arm->values.contains(measure)) continue;
-        verdict.ours = statistics::median(arm->values.at(measure));
+        const std::vector<double>& values = arm->values.at(measure);
+        verdict.ours = statistics::median(values);
+        verdict.ours_interval = statistics::bootstrap_interval(values, statistics::median);
         if (paper_scale(comparison.settings, measure != "swarm_fitness_at_10000"))
             verdict.agrees = verdict.published.contains(*verdict.ours);
     }
 }
 
+/// The p-value of Gene Clocks against timestamps; none where one of them was not run.
+std::optional<double> p_value_of(const Comparison& comparison, const std::string& measure) {
+    const ArmNumbers* gene_clock = comparison.arm(sim::Source::gene_clock);
+    const ArmNumbers* timestamp = comparison.arm(sim::Source::timestamp);
+    if (gene_clock == nullptr || timestamp == nullptr) return std::nullopt;
+    return statistics::mann_whitney(gene_clock->values.at(measure), timestamp->values.at(measure))
+        .p_value;
+}
+
 TestVerdict judge_test(const Comparison& comparison, const std::string& measure, double p_value,
                        bool is_lower_bound) {
     TestVerdict verdict{
-        measure, p_value, is_lower_bound, deciding_p_value(comparison, measure), {}};
+        measure, p_value, is_lower_bound, p_value_of(comparison, measure), {}};
     if (verdict.ours && paper_scale(comparison.settings, true)) {
         const double level = published().significance_level;
         verdict.agrees = (*verdict.ours < level) == (p_value < level);
@@ -80,18 +92,6 @@ Agreement count_agreement(const Exhibit& exhibit) {
     return agreement;
 }
 
-std::optional<double> deciding_p_value(const Comparison& comparison, std::string_view measure) {
-    const ArmNumbers* gene_clock = comparison.arm(sim::Source::gene_clock);
-    const ArmNumbers* timestamp = comparison.arm(sim::Source::timestamp);
-    if (gene_clock == nullptr || timestamp == nullptr) return std::nullopt;
-    if (const auto halves = independent_halves(*gene_clock, *timestamp, measure))
-        return statistics::mann_whitney(halves->first, halves->second).p_value;
-    const auto x = gene_clock->values.find(measure);
-    const auto y = timestamp->values.find(measure);
-    if (x == gene_clock->values.end() || y == timestamp->values.end()) return std::nullopt;
-    return statistics::mann_whitney(x->second, y->second).p_value;
-}
-
 std::vector<Exhibit> judge(const Comparison& comparison) {
     const sim::Task task = comparison.settings.task;
     const PublishedTask& paper = published().tasks.at(task);
@@ -107,8 +107,10 @@ std::vector<Exhibit> judge(const Comparison& comparison) {
         }
     }
     Exhibit table_2{"table-2", task, {}, {}};
-    for (const auto& [measure, p_value] : paper.p_values)
-        table_2.tests.push_back(judge_test(comparison, measure, p_value, false));
+    for (const std::string_view measure : compared_measures) {
+        const std::string id(measure);
+        table_2.tests.push_back(judge_test(comparison, id, paper.p_values.at(id), false));
+    }
     Exhibit figure_11{"figure-11", task, {}, {}};
     figure_11.tests.push_back(
         judge_test(comparison, "controller_size", paper.controller_size_p_value_above, true));

@@ -8,6 +8,7 @@
 
 #include "comparison.hpp"
 #include "published.hpp"
+#include "statistics/bootstrap.hpp"
 
 namespace gene_clocks::report {
 
@@ -18,11 +19,15 @@ struct RangeVerdict {
     std::string measure;
     PublishedRange published;
     std::optional<double> ours;  ///< our median; none where there are no such runs
+    statistics::Interval ours_interval;  ///< bootstrap interval of our median, where there is one
     std::optional<bool> agrees;  ///< none where our runs are not of the paper's scale
 };
 
-/// A published p-value beside ours. They agree where both fall on the same side of the
-/// significance level.
+/// A published p-value beside ours, of all runs of both methods. They agree where both fall on the
+/// same side of the significance level.
+///
+/// Arms that share seeds are alike by construction. That makes the test conservative, never the
+/// reverse: runs that are the same, seed by seed, show no difference for certain.
 struct TestVerdict {
     std::string measure;
     double published{};
@@ -45,10 +50,6 @@ struct Agreement {
     std::size_t compared{};
 };
 Agreement count_agreement(const Exhibit& exhibit);
-
-/// The p-value by which two arms are judged: of the independent halves where the arms share seeds,
-/// of all runs otherwise. None where one of them is missing.
-std::optional<double> deciding_p_value(const Comparison& comparison, std::string_view measure);
 
 /// The paper's figures 3 to 11 and Table 2, as far as they concern the comparison's task.
 std::vector<Exhibit> judge(const Comparison& comparison);
