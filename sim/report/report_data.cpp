@@ -1,5 +1,6 @@
 #include "report_data.hpp"
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -196,17 +197,16 @@ Json exhibits_json(const std::vector<Exhibit>& exhibits) {
     for (const Exhibit& exhibit : exhibits) {
         Json entry = {{"id", exhibit.id}, {"ranges", Json::array()}, {"tests", Json::array()}};
         for (const RangeVerdict& verdict : exhibit.ranges) {
-            entry["ranges"].push_back({{"origin", verdict.origin},
-                                       {"source", name_of(verdict.source)},
-                                       {"measure", verdict.measure},
-                                       {"lower", verdict.published.lower},
-                                       {"median", or_null(verdict.published.median)},
-                                       {"upper", verdict.published.upper},
-                                       {"ours", or_null(verdict.ours)},
-                                       {"ours_interval", verdict.ours
-                                                             ? to_json(verdict.ours_interval)
-                                                             : Json(nullptr)},
-                                       {"agrees", or_null(verdict.agrees)}});
+            entry["ranges"].push_back(
+                {{"origin", verdict.origin},
+                 {"source", name_of(verdict.source)},
+                 {"measure", verdict.measure},
+                 {"lower", verdict.published.lower},
+                 {"median", or_null(verdict.published.median)},
+                 {"upper", verdict.published.upper},
+                 {"ours", or_null(verdict.ours)},
+                 {"ours_interval", verdict.ours ? to_json(verdict.ours_interval) : Json(nullptr)},
+                 {"agrees", or_null(verdict.agrees)}});
         }
         for (const TestVerdict& verdict : exhibit.tests) {
             entry["tests"].push_back({{"measure", verdict.measure},
@@ -282,8 +282,26 @@ Json comparison_json(const Comparison& comparison) {
     return json;
 }
 
+/// Table 1's fixed values, and whether all runs have them. Navigation has no items.
+Json fixed_json(const std::vector<Comparison>& comparisons) {
+    Json rows = Json::array();
+    for (const auto& [key, value] : published().fixed) {
+        const experiment::Setting& setting = *experiment::find_setting(key);
+        const auto agrees = [&](const Comparison& comparison) {
+            const sim::Settings& settings = comparison.settings;
+            return to_json(setting.get(settings)) == Json(value) ||
+                   (key == "world.items" && settings.task == sim::Task::navigation);
+        };
+        rows.push_back({{"key", key},
+                        {"value", value},
+                        {"description", setting.description},
+                        {"agrees", std::ranges::all_of(comparisons, agrees)}});
+    }
+    return rows;
+}
+
 /// Table 1: the parameter sets, and which task each is printed for and was run for.
-Json table_1_json() {
+Json table_1_json(const std::vector<Comparison>& comparisons) {
     Json json;
     for (const std::string_view key : tuned_keys) {
         const experiment::Setting& setting = *experiment::find_setting(key);
@@ -292,7 +310,7 @@ Json table_1_json() {
             row["values"][name] = to_json(setting.get(experiment::select({.parameters = name})));
         json["rows"].push_back(std::move(row));
     }
-    json["fixed"] = published().fixed;
+    json["fixed"] = fixed_json(comparisons);
     for (const auto& [task, numbers] : published().tasks) {
         json["printed"][std::string(name_of(task))] = numbers.printed_parameters;
         json["as_run"][std::string(name_of(task))] = numbers.run_parameters;
@@ -333,7 +351,7 @@ nlohmann::ordered_json report_data(const Input& input) {
         json["paper"]["cycles"][std::string(name_of(task))] = numbers.cycles;
     json["bootstrap"] = {{"resamples", statistics::BootstrapSettings{}.resamples},
                          {"confidence", statistics::BootstrapSettings{}.confidence}};
-    json["table_1"] = table_1_json();
+    json["table_1"] = table_1_json(comparisons);
     json["missing_arms"] = Json::array();
     for (const Arm& arm : input.arms) {
         if (arm.runs.empty()) json["missing_arms"].push_back(arm.name);

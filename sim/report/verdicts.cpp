@@ -69,8 +69,7 @@ std::optional<double> p_value_of(const Comparison& comparison, const std::string
 
 TestVerdict judge_test(const Comparison& comparison, const std::string& measure, double p_value,
                        bool is_lower_bound) {
-    TestVerdict verdict{
-        measure, p_value, is_lower_bound, p_value_of(comparison, measure), {}};
+    TestVerdict verdict{measure, p_value, is_lower_bound, p_value_of(comparison, measure), {}};
     if (verdict.ours && paper_scale(comparison.settings, true)) {
         const double level = published().significance_level;
         verdict.agrees = (*verdict.ours < level) == (p_value < level);

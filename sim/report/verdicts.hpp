@@ -18,9 +18,9 @@ struct RangeVerdict {
     sim::Source source{};
     std::string measure;
     PublishedRange published;
-    std::optional<double> ours;  ///< our median; none where there are no such runs
+    std::optional<double> ours;          ///< our median; none where there are no such runs
     statistics::Interval ours_interval;  ///< bootstrap interval of our median, where there is one
-    std::optional<bool> agrees;  ///< none where our runs are not of the paper's scale
+    std::optional<bool> agrees;          ///< none where our runs are not of the paper's scale
 };
 
 /// A published p-value beside ours, of all runs of both methods. They agree where both fall on the

@@ -52,6 +52,26 @@ TEST(ReportData, ChangesAgainstTheProfileAreListed) {
     EXPECT_EQ(changes, Json::array({{{"key", "radio.loss"}, {"profile", 0.0}, {"run", 0.25}}}));
 }
 
+TEST(ReportData, FixedValuesOfTable1AreHeldAgainstAllRuns) {
+    const auto rows_that_differ = [](const Input& input) {
+        std::vector<std::string> keys;
+        const Json data = report_data(input);
+        for (const Json& row : data["table_1"]["fixed"])
+            if (!row["agrees"]) keys.push_back(row["key"]);
+        return keys;
+    };
+    Input input;
+    for (const sim::Task task : {sim::Task::navigation, sim::Task::collection})
+        input.arms.push_back(sample_arm({.task = task, .runs = 1}));
+    EXPECT_TRUE(rows_that_differ(input).empty());
+    input.arms[0].settings.world.items = 7;  // none in navigation, whatever the setting
+    EXPECT_TRUE(rows_that_differ(input).empty());
+    input.arms[1].settings.world.items = 7;
+    input.arms[0].settings.odneat.c_disjoint = 1.0;
+    EXPECT_EQ(rows_that_differ(input),
+              (std::vector<std::string>{"odneat.c_disjoint", "world.items"}));
+}
+
 TEST(ReportData, MeasuresThatTheRunsAreTooShortForAreNull) {
     Input input;
     Arm arm = sample_arm({.runs = 0});
