@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+
+#include "swarm.hpp"
+
+namespace gene_clocks::model {
+
+/// A scope in which every promise holds, and how many worlds there are. A number that changes means
+/// that the protocol, the model or the explorer has changed: find out which before recording it.
+struct RecordedScope {
+    const char* name;
+    Scope scope;
+    std::uint64_t states;
+    std::uint64_t transitions;
+
+    friend std::ostream& operator<<(std::ostream& out, const RecordedScope& recorded) {
+        return out << recorded.name;
+    }
+};
+
+inline constexpr RecordedScope small_scopes[] = {
+    {"TwoRobotsFourCounters", {.robots = 2, .maximum = 5}, 250'828, 2'046'584},
+    {"ThreeMessagesInFlight",
+     {.robots = 2, .maximum = 4, .block = 1, .messages = 3},
+     276'283,
+     2'744'803},
+    {"MutationsOfTwoGenesAndReservedBlocks",
+     {.robots = 2, .maximum = 5, .block = 2, .largest_mint = 2},
+     503'603,
+     4'544'962},
+    {"ForgedStampsWithinABudget",
+     {.robots = 2,
+      .maximum = 8,
+      .block = 1,
+      .window = 2,
+      .budget = Scope::Budget{.minted = 3, .crashes = 1, .forged = 1}},
+     368'299,
+     2'609'974},
+};
+
+/// A few million worlds: seconds.
+inline constexpr RecordedScope large_scopes[] = {
+    {"ThreeRobots", {.robots = 3, .maximum = 3}, 3'123'171, 32'351'353},
+};
+
+/// For `./run prove --full`: minutes, and up to 6 GiB.
+inline constexpr RecordedScope full_scopes[] = {
+    {"ThreeRobotsThreeCountersOneMessage",
+     {.robots = 3, .maximum = 4, .messages = 1},
+     8'043'609,
+     64'405'833},
+};
+
+}  // namespace gene_clocks::model
