@@ -86,7 +86,8 @@ TEST(Refutes, AMissingWindow) {
                               .maximum = 4,
                               .window = 1,
                               .budget = Scope::Budget{.minted = 2, .crashes = 1, .forged = 1}},
-                             "a counter exceeds its budget", {"robot 1 receives a forged stamp 3"});
+                             "a counter exceeds its budget",
+                             {"robot 1 receives a forged stamp 3 with {}"});
 }
 
 TEST(Refutes, KeepingGenesThatTheStoredCounterDoesNotCover) {

@@ -65,12 +65,15 @@ struct World {
     int forged = 0;
 };
 
+/// A forged message has no genes, or those of a message in flight.
+inline constexpr int no_message = -1;
+
 /// What can happen next.
 struct Action {
     enum class Kind { mint, send, deliver, lose, duplicate, flush, crash, restart, forge };
     Kind kind;
     int robot = 0;      ///< where it happens; of no meaning for lose and duplicate
-    int message = 0;    ///< in flight, for deliver, lose and duplicate
+    int message = 0;    ///< in flight, for deliver, lose, duplicate; for forge whose genes it has
     Counter value = 0;  ///< number of genes to mint, or stamp to forge
 };
 
@@ -131,7 +134,9 @@ public:
             if (!budget || world.crashes < budget->crashes) visit(Action{crash, r});
             if (budget && world.forged < budget->forged) {
                 for (Counter stamp = 1; stamp <= scope_.maximum; ++stamp) {
-                    visit(Action{forge, r, 0, stamp});
+                    for (int m = no_message; m < world.message_count; ++m) {
+                        visit(Action{forge, r, m, stamp});
+                    }
                 }
             }
         }
@@ -178,7 +183,7 @@ public:
             }
             case Action::Kind::forge:
                 ++world.forged;
-                receive(world, action.robot, {action.value, 0});
+                receive(world, action.robot, {action.value, forged_genes(world, action)});
                 break;
         }
         return broken_promise(world);
@@ -249,7 +254,6 @@ public:
             out << "stamp " << int{sent.stamp} << " with ";
             write_genes(out, sent.genes);
         };
-        const Message* const in_flight = &world.messages[index(action.message)];
         switch (action.kind) {
             case Action::Kind::mint: {
                 robot();
@@ -269,15 +273,15 @@ public:
             case Action::Kind::deliver:
                 robot();
                 out << " receives ";
-                message(*in_flight);
+                message(world.messages[index(action.message)]);
                 break;
             case Action::Kind::lose:
                 out << "lost: ";
-                message(*in_flight);
+                message(world.messages[index(action.message)]);
                 break;
             case Action::Kind::duplicate:
                 out << "duplicated: ";
-                message(*in_flight);
+                message(world.messages[index(action.message)]);
                 break;
             case Action::Kind::flush:
                 robot();
@@ -293,7 +297,8 @@ public:
                 break;
             case Action::Kind::forge:
                 robot();
-                out << " receives a forged stamp " << int{action.value};
+                out << " receives a forged ";
+                message({action.value, forged_genes(world, action)});
                 break;
         }
         return out.str();
@@ -372,6 +377,10 @@ private:
         if (!Rules::merge(clock, {message.stamp}, {genes.data(), size})) return;
         put(world.robots[index(r)], clock);
         world.robots[index(r)].known |= message.genes;
+    }
+
+    static MarkSet forged_genes(const World& world, const Action& action) {
+        return action.message == no_message ? 0 : world.messages[index(action.message)].genes;
     }
 
     [[nodiscard]] MarkSet retained(const RobotState& robot) const {
