@@ -45,12 +45,17 @@ inline constexpr RecordedScope large_scopes[] = {
     {"ThreeRobots", {.robots = 3, .maximum = 3}, 3'123'171, 32'351'353},
 };
 
-/// For `./run prove --full`: minutes, and up to 6 GiB.
+/// For `./run prove --full`: minutes, and up to 4 GiB.
 inline constexpr RecordedScope full_scopes[] = {
-    {"ThreeRobotsThreeCountersOneMessage",
-     {.robots = 3, .maximum = 4, .messages = 1},
-     8'043'609,
-     64'405'833},
+    {"ThreeRobotsOneMessage", {.robots = 3, .maximum = 4, .messages = 1}, 8'043'609, 64'405'833},
+    {"ThreeRobotsThreeMessages",
+     {.robots = 3, .maximum = 3, .messages = 3},
+     20'661'538,
+     268'469'849},
+    {"TwoRobotsSixCountersThreeMessages",
+     {.robots = 2, .maximum = 7, .messages = 3},
+     51'835'972,
+     561'385'058},
 };
 
 }  // namespace gene_clocks::model

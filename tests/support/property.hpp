@@ -9,14 +9,18 @@
 
 namespace gene_clocks::test {
 
-/// Checks a RapidCheck property as a GoogleTest. A failure is shrunk, and ends in the command that
-/// runs the very same case again.
+/// Checks a RapidCheck property as a GoogleTest, on as many cases as RC_PARAMS asks for (100 where
+/// it does not) times `effort`. A failure is shrunk, and ends in the command that runs the very
+/// same case again.
 template <class Testable>
-void check_property(Testable&& testable) {
+void check_property(Testable&& testable, int effort = 1) {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
     const std::string name = std::string(test->test_suite_name()) + "." + test->name();
     const rc::detail::TestMetadata metadata{name, name};
-    const auto result = rc::detail::checkTestable(std::forward<Testable>(testable), metadata);
+    auto params = rc::detail::configuration().testParams;
+    params.maxSuccess *= effort;
+    const auto result =
+        rc::detail::checkTestable(std::forward<Testable>(testable), metadata, params);
 
     std::ostringstream message;
     rc::detail::printResultMessage(result, message);
