@@ -205,11 +205,11 @@ void run_swarm(std::size_t most_robots, Slip slip) {
     RC_CLASSIFY(swarm.history().size() > 1000, "more than 1000 events");
 }
 
-GENE_CLOCKS_PROPERTY(SwarmProperty, FewRobotsKeepEveryPromise, ()) {
-    run_swarm(8, Slip::none);
+TEST(SwarmProperty, FewRobotsKeepEveryPromise) {
+    test::check_property([] { run_swarm(8, Slip::none); }, 20);
 }
-GENE_CLOCKS_PROPERTY(SwarmProperty, ManyRobotsKeepEveryPromise, ()) {
-    run_swarm(200, Slip::none);
+TEST(SwarmProperty, ManyRobotsKeepEveryPromise) {
+    test::check_property([] { run_swarm(200, Slip::none); }, 2);
 }
 
 // The canaries: a swarm that breaks one rule must be caught, or the checks above are worth nothing.
