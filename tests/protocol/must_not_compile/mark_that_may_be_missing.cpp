@@ -2,7 +2,11 @@
 #include "gene_clocks/gene_clock.hpp"
 using namespace gene_clocks;
 #ifdef MENDED
-std::optional<InnovationNumber> mark_gene(GeneClock& clock) { return clock.mint(); }
+std::optional<InnovationNumber> mark_gene(GeneClock& clock) {
+    return clock.mint();
+}
 #else
-InnovationNumber mark_gene(GeneClock& clock) { return clock.mint(); }  // must not compile
+InnovationNumber mark_gene(GeneClock& clock) {
+    return clock.mint();  // must not compile
+}
 #endif

@@ -2,7 +2,11 @@
 #include "gene_clocks/gene_clock.hpp"
 using namespace gene_clocks;
 #ifdef MENDED
-bool receive(GeneClock& clock, Stamp stamp) { return clock.observe(stamp); }
+bool receive(GeneClock& clock, Stamp stamp) {
+    return clock.observe(stamp);
+}
 #else
-void receive(GeneClock& clock, Stamp stamp) { clock.observe(stamp); }  // must not compile
+void receive(GeneClock& clock, Stamp stamp) {
+    clock.observe(stamp);  // must not compile
+}
 #endif

@@ -2,7 +2,11 @@
 #include "gene_clocks/innovation_number.hpp"
 using namespace gene_clocks;
 #ifdef MENDED
-bool is_older(Stamp a, Stamp b) { return a < b; }
+bool is_older(Stamp a, Stamp b) {
+    return a < b;
+}
 #else
-bool is_older(Stamp a, InnovationNumber b) { return a < b; }  // must not compile
+bool is_older(Stamp a, InnovationNumber b) {
+    return a < b;  // must not compile
+}
 #endif

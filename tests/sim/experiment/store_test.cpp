@@ -111,7 +111,8 @@ TEST_F(StoreTest, KeepsStudiesAndRuns) {
 TEST_F(StoreTest, LeavesOutRunsWithOtherSeeds) {
     Store store = Store::open_for_writing(file);
     store.put_study(study);
-    for (const std::uint64_t seed : {2U, 3U, 7U, 8U}) store.put_run(example_run(study.arms[0], seed));
+    for (const std::uint64_t seed : {2U, 3U, 7U, 8U})
+        store.put_run(example_run(study.arms[0], seed));
     const StoredStudy stored = store.study("example");
     const auto runs = store.runs(stored, stored.arms[0]);
     ASSERT_EQ(runs.size(), 2U);  // seeds 3 to 7
