@@ -5,16 +5,13 @@
 #include <cmath>
 #include <span>
 
-#include "gene_clocks/align.hpp"
-
 namespace gene_clocks::neat {
 namespace {
 
 /// What matching genes contribute to W. Eight partial sums, added up in a fixed order, so that
 /// vector registers of any width give the same result.
 struct WeightTerm {
-    static constexpr std::size_t lanes = 8;
-    using Lanes = Eigen::Array<float, lanes, 1>;
+    using Lanes = Eigen::Array<float, 8, 1>;
 
     static float total(const Lanes& x) {
         const Eigen::Array4f half = x.head<4>() + x.tail<4>();
@@ -33,34 +30,71 @@ struct WeightTerm {
 template <class IsEnough>
 bool add_matching(const Genome& first, const Genome& second, std::size_t begin, std::size_t end,
                   WeightTerm& term, IsEnough is_enough) {
-    constexpr std::size_t lanes = WeightTerm::lanes;
-    using Lanes = WeightTerm::Lanes;
     const float* weights_a = first.weights.data();
     const float* weights_b = second.weights.data();
     const float* enabled_a = first.enabled.data();
     const float* enabled_b = second.enabled.data();
+    const auto add = [&](auto sums, auto counts, std::size_t i) {
+        using Block = Eigen::Array<float, decltype(sums)::SizeAtCompileTime, 1>;
+        const Block both = Block::Map(enabled_a + i) * Block::Map(enabled_b + i);
+        sums += (Block::Map(weights_a + i) - Block::Map(weights_b + i)).abs() * both;
+        counts += both;
+    };
     std::size_t i = begin;
-    for (; i + lanes <= end; i += lanes) {
-        const Lanes both = Lanes::Map(enabled_a + i) * Lanes::Map(enabled_b + i);
-        term.sums += (Lanes::Map(weights_a + i) - Lanes::Map(weights_b + i)).abs() * both;
-        term.counts += both;
+    for (; i + 8 <= end; i += 8) {
+        add(term.sums.head<8>(), term.counts.head<8>(), i);
         if (is_enough(term)) return true;
     }
-    for (Eigen::Index lane = 0; i < end; ++i, ++lane) {
-        const float both = enabled_a[i] * enabled_b[i];
-        term.sums(lane) += std::abs(weights_a[i] - weights_b[i]) * both;
-        term.counts(lane) += both;
+    if (i + 4 <= end) {
+        add(term.sums.head<4>(), term.counts.head<4>(), i);
+        i += 4;
     }
+    for (; i < end; ++i) add(term.sums.head<1>(), term.counts.head<1>(), i);
     return is_enough(term);
 }
 
-/// Length of the common beginning of two lists of marks.
+/// Length of the common beginning of two lists of marks; at least `from`.
 std::size_t common_prefix(const Topology& first, const Topology& second, std::size_t from) {
-    const auto& marks_a = first.connection_marks;
-    const auto& marks_b = second.connection_marks;
-    const std::size_t end = std::min(marks_a.size(), marks_b.size());
-    while (from < end && marks_a[from] == marks_b[from]) ++from;
+    const InnovationNumber* a = first.connection_marks.data();
+    const InnovationNumber* b = second.connection_marks.data();
+    const std::size_t end = std::min(first.connection_marks.size(), second.connection_marks.size());
+    while (from < end && a[from] == b[from]) ++from;
     return from;
+}
+
+/// How many genes do not match.
+struct Unmatched {
+    std::size_t disjoint = 0;
+    std::size_t excess = 0;
+};
+
+/// Counts the unmatched genes from index `begin` on, and adds the matching ones to `term`. This is
+/// align(), counting instead of visiting, which takes two thirds of the time.
+Unmatched count_unmatched(const Genome& first, const Genome& second, std::size_t begin,
+                          WeightTerm& term) {
+    const std::span marks_a(first.topology->connection_marks);
+    const std::span marks_b(second.topology->connection_marks);
+    auto a = marks_a.begin() + static_cast<std::ptrdiff_t>(begin);
+    auto b = marks_b.begin() + static_cast<std::ptrdiff_t>(begin);
+    std::ptrdiff_t matching = 0;
+    while (a != marks_a.end() && b != marks_b.end()) {
+        if (*a < *b) {
+            ++a;
+        } else if (*b < *a) {
+            ++b;
+        } else {
+            const auto i = static_cast<std::size_t>(a++ - marks_a.begin());
+            const auto j = static_cast<std::size_t>(b++ - marks_b.begin());
+            const float both = first.enabled[i] * second.enabled[j];
+            term.sums(0) += both * std::abs(first.weights[i] - second.weights[j]);
+            term.counts(0) += both;
+            ++matching;
+        }
+    }
+    // One list has ended; what is left of the other is excess.
+    const auto excess = static_cast<std::size_t>((marks_a.end() - a) + (marks_b.end() - b));
+    const auto matches = begin + static_cast<std::size_t>(matching);
+    return {marks_a.size() + marks_b.size() - 2 * matches - excess, excess};
 }
 
 }  // namespace
@@ -86,40 +120,16 @@ float distance(const Genome& first, const Genome& second, const DistanceMeasure&
         return may_stop && measure.c_weight * term.sum() >= limit;
     };
     WeightTerm weight;
-    if (add_matching(first, second, 0, initial, weight, is_enough)) return limit;
+    const std::size_t whole_blocks = initial / 8 * 8;
+    if (add_matching(first, second, 0, whole_blocks, weight, is_enough)) return limit;
 
     const bool same_topology = &topology_a == &topology_b;
     const std::size_t prefix =
         same_topology ? first.connections() : common_prefix(topology_a, topology_b, initial);
-    if (add_matching(first, second, initial, prefix, weight, is_enough)) return limit;
+    if (add_matching(first, second, whole_blocks, prefix, weight, is_enough)) return limit;
 
-    std::size_t disjoint = 0;
-    std::size_t excess = 0;
-    if (!same_topology) {
-        const auto tail = [prefix](const std::vector<InnovationNumber>& marks) {
-            return std::span(marks).subspan(prefix);
-        };
-        align(tail(topology_a.connection_marks), tail(topology_b.connection_marks),
-              [&](GeneMatch match, std::size_t i, std::size_t j) {
-                  switch (match) {
-                      case GeneMatch::matching: {
-                          const float both = first.enabled[prefix + i] * second.enabled[prefix + j];
-                          weight.sums(0) += both * std::abs(first.weights[prefix + i] -
-                                                            second.weights[prefix + j]);
-                          weight.counts(0) += both;
-                          break;
-                      }
-                      case GeneMatch::disjoint_first:
-                      case GeneMatch::disjoint_second:
-                          ++disjoint;
-                          break;
-                      case GeneMatch::excess_first:
-                      case GeneMatch::excess_second:
-                          ++excess;
-                          break;
-                  }
-              });
-    }
+    const auto [disjoint, excess] =
+        same_topology ? Unmatched{} : count_unmatched(first, second, prefix, weight);
     const float size = static_cast<float>(std::max(first.connections(), second.connections()));
     return measure.c_excess * static_cast<float>(excess) / size +
            measure.c_disjoint * static_cast<float>(disjoint) / size +
