@@ -48,7 +48,7 @@ std::shared_ptr<const Genome> Population::remove(std::size_t index) {
         for (Member& member : members_) {
             if (member.species > species) --member.species;
         }
-    } else if (species_[species].representative == genome) {
+    } else {
         species_[species].representative = heir->genome;
     }
     return genome;

@@ -61,7 +61,7 @@ public:
 
 private:
     struct Species {
-        std::shared_ptr<const Genome> representative;  // the member that was placed first
+        std::shared_ptr<const Genome> representative;  // invariant: its first member
         float fitness = 0.0f;
     };
 
