@@ -7,11 +7,11 @@
 // time, in random turns, and hear each other's stamp now and then, so that their new marks
 // interleave. The two thus share the initial genes and half of the others; the rest is disjoint
 // or excess (the counters give means). Two in three new connections come from splits. A benchmark
-// walks over 64 different pairs, so that the processor cannot learn one pair's branches by heart.
+// walks over 16 different pairs, so that the processor cannot learn one pair's branches by heart.
 
 #include <benchmark/benchmark.h>
 
-#include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -32,7 +32,7 @@ using namespace gene_clocks::neat;
 
 constexpr std::size_t inputs = 10;
 constexpr std::size_t outputs = 2;
-constexpr std::size_t pairs = 64;
+constexpr std::size_t pairs = 16;
 
 struct Siblings {
     Genome first;
@@ -146,6 +146,71 @@ void distance_of_weight_mutants(benchmark::State& state) {
 }
 BENCHMARK(distance_of_weight_mutants)->Arg(40)->Arg(200);
 
+/// The usual way to store genes, for comparison: each an object of its own on the heap, which holds
+/// its number, as a double, and a pointer to its connection.
+struct HeapGene {
+    double innovation;
+    double weight;
+    std::unique_ptr<ConnectionEnds> connection;
+};
+using HeapGenome = std::vector<std::unique_ptr<HeapGene>>;
+
+HeapGenome make_heap_genome(const Genome& genome) {
+    HeapGenome genes;
+    for (std::size_t i = 0; i < genome.connections(); ++i) {
+        const InnovationNumber mark = genome.topology->connection_marks[i];
+        const double innovation =
+            4.0 * static_cast<double>(mark.counter) + static_cast<double>(mark.robot);
+        genes.push_back(std::make_unique<HeapGene>(
+            HeapGene{innovation, genome.weights[i],
+                     std::make_unique<ConnectionEnds>(genome.topology->connection_ends[i])}));
+    }
+    return genes;
+}
+
+double heap_distance(const HeapGenome& first, const HeapGenome& second) {
+    double disjoint = 0.0, excess = 0.0, matching = 0.0, weights = 0.0;
+    auto a = first.begin();
+    auto b = second.begin();
+    while (a != first.end() || b != second.end()) {
+        if (a == first.end()) {
+            ++b, ++excess;
+        } else if (b == second.end()) {
+            ++a, ++excess;
+        } else if ((*a)->innovation == (*b)->innovation) {
+            weights += std::abs((*a)->weight - (*b)->weight);
+            ++a, ++b, ++matching;
+        } else if ((*a)->innovation < (*b)->innovation) {
+            ++a, ++disjoint;
+        } else {
+            ++b, ++disjoint;
+        }
+    }
+    return 0.5 * excess + 1.5 * disjoint + 0.4 * weights / matching;
+}
+
+void measure_heap_distance(benchmark::State& state, const std::vector<Siblings>& all) {
+    std::vector<std::pair<HeapGenome, HeapGenome>> genomes;
+    for (const Siblings& siblings : all) {
+        genomes.emplace_back(make_heap_genome(siblings.first), make_heap_genome(siblings.second));
+    }
+    std::size_t next = 0;
+    for (auto _ : state) {
+        const auto& [first, second] = genomes[next++ % pairs];
+        benchmark::DoNotOptimize(heap_distance(first, second));
+    }
+}
+
+void heap_distance_of_siblings(benchmark::State& state) {
+    measure_heap_distance(state, make_all_siblings(static_cast<std::size_t>(state.range(0))));
+}
+BENCHMARK(heap_distance_of_siblings)->Arg(40)->Arg(200);
+
+void heap_distance_of_weight_mutants(benchmark::State& state) {
+    measure_heap_distance(state, make_all_weight_mutants(static_cast<std::size_t>(state.range(0))));
+}
+BENCHMARK(heap_distance_of_weight_mutants)->Arg(40)->Arg(200);
+
 void measure_crossover(benchmark::State& state, const std::vector<Siblings>& all) {
     const OdneatSettings settings;
     RandomStream random(2, 2);
@@ -196,8 +261,9 @@ BENCHMARK(controller_update)
     ->Args({18, 2})
     ->Args({18, 10});
 
-/// A robot hears eight others, as in the navigation task: the population is full, the tabu list
-/// holds what it has dropped, and each sender's genome comes a few times in a row.
+/// A robot hears eight others by turns, each four times in a row. Their energies differ, so that
+/// genomes are accepted, updated, refused and dropped; the robot's own genome is replaced every
+/// 4096 receptions, the cost of which is included. The counter is the mean length of its tabu list.
 void agent_receive(benchmark::State& state) {
     const OdneatSettings settings;
     const auto topology = make_initial_topology(inputs, outputs);
@@ -208,22 +274,27 @@ void agent_receive(benchmark::State& state) {
             RandomStream(4, robot));
     };
     Agent receiver = make_agent(1);
+    RandomStream random(4, 0);
     std::vector<Message> messages;
     for (std::uint32_t robot = 2; robot < 10; ++robot) {
         Agent sender = make_agent(robot);
         for (int birth = 0; birth < 8; ++birth) {
             sender.replace(0.0);
+            sender.gain(static_cast<float>(random.uniform(-100.0, 100.0)));
             messages.push_back(sender.message());
         }
     }
     constexpr std::size_t repeats = 4;
     std::size_t next = 0;
+    std::size_t tabu = 0;
     for (auto _ : state) {
-        const Message& message = messages[next++ / repeats % messages.size()];
-        benchmark::DoNotOptimize(receiver.receive(message));
+        // All robots' first genomes, then all robots' second ones, and so on.
+        const std::size_t turn = next++ / repeats % messages.size();
+        benchmark::DoNotOptimize(receiver.receive(messages[turn % 8 * 8 + turn / 8]));
+        tabu += receiver.tabu_list().size();
+        if (next % 4096 == 0) receiver.replace(0.0);
     }
-    state.counters["tabu"] = static_cast<double>(receiver.tabu_list().size());
-    state.counters["population"] = static_cast<double>(receiver.population().members().size());
+    state.counters["tabu"] = static_cast<double>(tabu) / static_cast<double>(next);
 }
 BENCHMARK(agent_receive);
 
