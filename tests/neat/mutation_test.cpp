@@ -149,6 +149,18 @@ TEST_F(AddNeuron, TheIncomingHalfKeepsARecurrentFlag) {
     EXPECT_EQ(topology.connection_ends[3], (ConnectionEnds{mark(101), genesis(2), false}));
 }
 
+TEST_F(AddNeuron, KeepsEachGenesDataTogetherWhereTheMarksSortBeforeOthers) {
+    Genome genome = perceptron(2, 1);
+    genome.weights = {0.25f, 0.5f};
+    add_gene(genome, mark(500), {genesis(3), genesis(3), true}, 0.75f, false);
+    ASSERT_TRUE(add_neuron_to(genome));  // only the first gene can be split
+    const std::vector<InnovationNumber> marks{genesis(4), genesis(5), mark(102), mark(103),
+                                              mark(500)};
+    EXPECT_EQ(genome.topology->connection_marks, marks);
+    EXPECT_EQ(genome.weights, (std::vector<float>{0.25f, 0.5f, 1.0f, 0.25f, 0.75f}));
+    EXPECT_EQ(genome.enabled, (std::vector<float>{0.0f, 1.0f, 1.0f, 1.0f, 0.0f}));
+}
+
 TEST_F(AddNeuron, LeavesTheSharedTopologyAlone) {
     Genome genome = perceptron(2, 1);
     const auto shared = genome.topology;
@@ -182,6 +194,20 @@ TEST_F(AddConnection, JoinsTwoNeuronsWithANewMark) {
     EXPECT_EQ(source_.calls, 1);
     EXPECT_EQ(source_.asked_size, 2u);
     EXPECT_EQ(source_.asked_at, 12.5);
+}
+
+TEST_F(AddConnection, KeepsEachGenesDataTogetherWhereTheMarkSortsBeforeOthers) {
+    settings_.p_recurrent = 1.0;
+    Genome genome = perceptron(1, 2);
+    genome.weights = {0.25f, 0.5f};
+    add_gene(genome, mark(500), {genesis(2), genesis(2), true}, 7.0f, false);
+    ASSERT_TRUE(add_connection_to(genome));
+    ASSERT_EQ(genome.connections(), 4u);
+    EXPECT_EQ(genome.topology->connection_marks[2], mark(101));
+    EXPECT_EQ(genome.topology->connection_marks[3], mark(500));
+    EXPECT_LT(std::abs(genome.weights[2]), 1.0f);
+    EXPECT_EQ(genome.weights[3], 7.0f);
+    EXPECT_EQ(genome.enabled, (std::vector<float>{1.0f, 1.0f, 1.0f, 0.0f}));
 }
 
 TEST_F(AddConnection, AWholeFeedForwardNetworkLeavesNoPlace) {
