@@ -156,12 +156,12 @@ TEST(Section41, TheFourMeasuresOfFigure2) {
     }
     const Measures measures = measure(samples, {.accumulated_share = 0.10,
                                                 .budget_share = 0.90,
-                                                .target_share = 0.90,
-                                                .best_fitness = 140.0});
+                                                .target_share = 0.50,
+                                                .best_fitness = 260.0});
     EXPECT_DOUBLE_EQ(measures.f_c, (132.0 + 131.0) / 2.0);  // the last tenth: from cycle 1800 on
     EXPECT_DOUBLE_EQ(measures.f_b, 132.0);                  // at cycle 1800
-    EXPECT_DOUBLE_EQ(measures.t_f, 1300.0);                 // the first of at least 126
-    EXPECT_DOUBLE_EQ(measures.f_a, (4.0 + 14.0) + (9.0 + 8.0 + 7.0 + 6.0 + 5.0));
+    EXPECT_DOUBLE_EQ(measures.t_f, 1300.0);                 // the first of at least 130
+    EXPECT_DOUBLE_EQ(measures.f_a, 10.0 + (5.0 + 4.0 + 3.0 + 2.0 + 1.0));
 }
 
 // Table 1: "Summary of the tuned and fixed parameters of odNEAT in our experiments"
