@@ -12,6 +12,7 @@ import json
 import os
 import pathlib
 import platform
+import shutil
 import subprocess
 import sys
 
@@ -34,6 +35,8 @@ def processor_name():
 
 
 def revision():
+    if not shutil.which("git"):
+        return "unknown"
     described = subprocess.run(
         ["git", "-C", os.path.dirname(__file__), "describe", "--always", "--dirty"],
         capture_output=True, text=True, check=False,
