@@ -1,8 +1,7 @@
-(* The proved protocol as a program: commands from standard input, and for each an answer, with
-   the robot's next, durable and stored counter and how many marks it knows.
-   The commands are those of Protocol.v, beside: limits MAXIMUM BLOCK WINDOW GENESIS, which starts
-   anew; flush ROBOT, which persists all that is reserved; known ROBOT; align GENOME / GENOME.
-   A mark is two words, counter and robot. *)
+(* The proved protocol behind a language of lines: for each command an answer, with the robot's next,
+   durable and stored counter and how many marks it knows. The commands are those of Protocol.v, and:
+   limits MAXIMUM BLOCK WINDOW GENESIS, which starts anew; flush ROBOT, which persists all that is
+   reserved; known ROBOT; align GENOME / GENOME. A mark is two words, counter and robot. *)
 open Proved
 open Words
 
@@ -44,7 +43,7 @@ let perform r command =
       let w, answer = step gene_clocks l w (command r (w.robots r)) in
       let s = w.robots r in
       state := Some (l, w);
-      Printf.printf "%s | %s %s %s %d\n" (show_answer w answer) (show s.memory.next)
+      Printf.sprintf "%s | %s %s %s %d" (show_answer w answer) (show s.memory.next)
         (show s.memory.durable) (show s.stored) (List.length s.known)
 
 let rec split before = function
@@ -52,12 +51,13 @@ let rec split before = function
   | word :: after -> split (word :: before) after
   | [] -> malformed "align needs two genomes, with / between"
 
-let obey _ = function
+(* The answer to a command's words. *)
+let answer = function
   | [ "limits"; maximum; block; window; genesis ] ->
       ignore (small_number genesis);
       let l = read_limits maximum block window genesis in
       state := Some (l, init l);
-      print_endline "limits"
+      "limits"
   | [ "mint"; r; n ] -> perform r (fun r _ -> Mint (r, number n))
   | "send" :: r :: genes -> perform r (fun r _ -> Send (r, marks genes))
   | [ "receive"; r; k ] -> perform r (fun r _ -> Receive (r, small_number k))
@@ -69,14 +69,9 @@ let obey _ = function
   | [ "known"; r ] -> (
       match !state with
       | None -> malformed "limits come first"
-      | Some (_, w) -> print_endline ("known" ^ show_marks (w.robots (number r)).known))
+      | Some (_, w) -> "known" ^ show_marks (w.robots (number r)).known)
   | "align" :: genomes ->
       let a, b = split [] genomes in
       let alignment = align (fun m -> m) (marks a) (marks b) in
-      print_endline ("aligned" ^ String.concat "" (List.map show_aligned alignment))
+      "aligned" ^ String.concat "" (List.map show_aligned alignment)
   | words -> malformed "no such command: '%s'" (String.concat " " words)
-
-let () =
-  let at = ref 0 in
-  try for_each_line stdin (fun number words -> at := number; obey number words)
-  with Malformed why -> Printf.eprintf "line %d: %s\n" !at why; exit 2

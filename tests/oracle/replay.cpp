@@ -1,214 +1,30 @@
-// The shipped clock behind the oracle's command language (proofs/oracle/protocol.ml): commands from
-// standard input, the same answers to standard output.
+// The shipped clock behind the oracle's language: commands from standard input, answers to standard
+// output.
 //
 // Usage: replay 8|64        (width of a counter in bits)
 
+#include "replay.hpp"
+
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <iostream>
-#include <map>
-#include <optional>
-#include <ranges>
-#include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "gene_clocks/align.hpp"
-#include "gene_clocks/gene_clock.hpp"
-#include "words.hpp"
-
-namespace gene_clocks::test {
 namespace {
-
-/// Robots, their storage and the network, around real clocks.
-template <std::unsigned_integral Counter>
-class Fleet {
-public:
-    using Clock = BasicGeneClock<Counter>;
-    using Mark = typename Clock::Mark;
-    using Words = std::span<const std::string_view>;
-
-    Fleet(typename Clock::Limits limits, Counter genesis_count)
-        : limits_{limits}, genesis_count_{genesis_count} {}
-
-    std::string mint(RobotId id, Counter count) {
-        Robot& robot = find(id);
-        const auto marks = robot.clock.mint(count);
-        if (!marks) return "exhausted";
-        for (Counter i = 0; i < count; ++i) robot.known.push_back((*marks)[i]);
-        return fmt::format("marks {} {}", marks->first.counter, marks->count);
-    }
-
-    std::string send(RobotId id, const std::vector<Mark>& selection) {
-        const Robot& robot = find(id);
-        if (robot.stored < robot.clock.durable_needed()) return "not durable";
-        Message message{robot.clock.stamp(), {}};
-        std::ranges::copy_if(selection, std::back_inserter(message.genes), [&](Mark gene) {
-            return std::ranges::find(robot.known, gene) != robot.known.end();
-        });
-        const std::string answer =
-            fmt::format("sent {} {};{}", network_.size(), message.stamp.value, list(message.genes));
-        network_.push_back(std::move(message));
-        return answer;
-    }
-
-    std::string receive(RobotId id, std::size_t message) {
-        if (message >= network_.size()) return "refused";
-        return learn(id, network_[message].stamp, network_[message].genes);
-    }
-
-    std::string inject(RobotId id, Counter stamp, const std::vector<Mark>& genes) {
-        return learn(id, {stamp}, genes);
-    }
-
-    std::string persist(RobotId id, Counter value) {
-        Robot& robot = find(id);
-        if (value > robot.clock.durable_needed()) return "not reserved";
-        robot.stored = std::max(robot.stored, value);
-        return "persisted";
-    }
-
-    std::string flush(RobotId id) { return persist(id, find(id).clock.durable_needed()); }
-
-    std::string crash(RobotId id) {
-        Robot& robot = find(id);
-        robot.clock = Clock::restart(id, robot.stored, limits_).value();
-        std::erase_if(robot.known, [&](Mark gene) { return gene.counter >= robot.stored; });
-        return "resumed";
-    }
-
-    std::string known(RobotId id) { return "known" + list(find(id).known); }
-
-    /// What the oracle prints of a robot after each command.
-    std::string state(RobotId id) {
-        const Robot& robot = find(id);
-        const auto [next, durable] = robot.clock.state();
-        return fmt::format(" | {} {} {} {}", next, durable, robot.stored, robot.known.size());
-    }
-
-    static std::string list(const std::vector<Mark>& marks) {
-        std::string text;
-        for (const Mark& mark : marks) text += show(mark);
-        return text;
-    }
-
-    static std::string show(Mark mark) {
-        return fmt::format(" {},{}", mark.counter, static_cast<std::uint32_t>(mark.robot));
-    }
-
-private:
-    struct Robot {
-        Clock clock;
-        Counter stored;  ///< on stable storage
-        std::vector<Mark> known;
-    };
-    struct Message {
-        typename Clock::StampType stamp;
-        std::vector<Mark> genes;
-    };
-
-    Robot& find(RobotId id) {
-        const auto place = robots_.find(id);
-        if (place != robots_.end()) return place->second;
-        const Clock clock{id, genesis_count_, limits_};
-        Robot robot{clock, clock.durable_needed(), {}};
-        for (Counter i = 1; i <= genesis_count_; ++i) robot.known.push_back({i, genesis_robot});
-        return robots_.emplace(id, std::move(robot)).first->second;
-    }
-
-    std::string learn(RobotId id, typename Clock::StampType stamp, const std::vector<Mark>& genes) {
-        Robot& robot = find(id);
-        if (!robot.clock.observe(stamp, genes)) return "refused";
-        robot.known.insert(robot.known.end(), genes.begin(), genes.end());
-        return "accepted";
-    }
-
-    typename Clock::Limits limits_;
-    Counter genesis_count_;
-    std::map<RobotId, Robot> robots_;
-    std::vector<Message> network_;
-};
-
-template <std::unsigned_integral Counter>
-class Replay {
-public:
-    using Mark = BasicInnovationNumber<Counter>;
-    using Words = std::span<const std::string_view>;
-
-    std::string obey(Words words) {
-        const std::string_view verb = words.front();
-        if (verb == "limits" && words.size() == 5) {
-            fleet_.emplace(typename BasicGeneClock<Counter>::Limits{number<Counter>(words[1]),
-                                                                    number<Counter>(words[2]),
-                                                                    number<Counter>(words[3])},
-                           number<Counter>(words[4]));
-            return "limits";
-        }
-        if (verb == "align") return align_genomes(words.subspan(1));
-        if (words.size() < 2) throw std::invalid_argument("no such command");
-        const RobotId id{number<std::uint32_t>(words[1])};
-        if (verb == "known") return fleet_.value().known(id);
-        const std::string answer = perform(verb, id, words.subspan(2));
-        return answer + fleet_->state(id);
-    }
-
-private:
-    std::string perform(std::string_view verb, RobotId id, Words rest) {
-        Fleet<Counter>& fleet = fleet_.value();
-        if (verb == "mint") return fleet.mint(id, number<Counter>(rest[0]));
-        if (verb == "send") return fleet.send(id, marks(rest));
-        if (verb == "receive") return fleet.receive(id, number<std::size_t>(rest[0]));
-        if (verb == "inject") {
-            return fleet.inject(id, number<Counter>(rest[0]), marks(rest.subspan(1)));
-        }
-        if (verb == "persist") return fleet.persist(id, number<Counter>(rest[0]));
-        if (verb == "flush") return fleet.flush(id);
-        if (verb == "crash") return fleet.crash(id);
-        throw std::invalid_argument("no such command");
-    }
-
-    static std::vector<Mark> marks(Words words) {
-        if (words.size() % 2 != 0) throw std::invalid_argument("a mark is two numbers");
-        std::vector<Mark> result;
-        for (std::size_t i = 0; i < words.size(); i += 2) {
-            result.push_back(
-                {number<Counter>(words[i]), RobotId{number<std::uint32_t>(words[i + 1])}});
-        }
-        return result;
-    }
-
-    static std::string align_genomes(Words words) {
-        const auto bar = std::ranges::find(words, "/");
-        if (bar == words.end()) throw std::invalid_argument("align needs two genomes");
-        const auto first = marks({words.begin(), bar});
-        const auto second = marks({bar + 1, words.end()});
-        std::string text = "aligned";
-        align(first, second, [&](GeneMatch match, std::size_t i, std::size_t j) {
-            static constexpr std::string_view signs[] = {" =", " <", " >", " <<", " >>"};
-            const bool on_second =
-                match == GeneMatch::disjoint_second || match == GeneMatch::excess_second;
-            text += signs[static_cast<std::size_t>(match)];
-            text += Fleet<Counter>::show(on_second ? second[j] : first[i]);
-        });
-        return text;
-    }
-
-    std::optional<Fleet<Counter>> fleet_;
-};
 
 template <std::unsigned_integral Counter>
 void replay() {
-    Replay<Counter> replay;
+    gene_clocks::test::Replay<Counter> replay;
     std::string line;
     for (std::size_t at = 1; std::getline(std::cin, line); ++at) {
         try {
-            const auto words = words_of(line);
-            fmt::print("{}\n", replay.obey(words));
+            fmt::print("{}\n", replay.answer(gene_clocks::test::words_of(line)));
         } catch (const std::exception& error) {
             throw std::runtime_error(fmt::format("line {}: {}", at, error.what()));
         }
@@ -216,16 +32,15 @@ void replay() {
 }
 
 }  // namespace
-}  // namespace gene_clocks::test
 
 int main(int argc, char** argv) {
     std::ios::sync_with_stdio(false);
     const std::string_view bits = argc == 2 ? argv[1] : "";
     try {
         if (bits == "8") {
-            gene_clocks::test::replay<std::uint8_t>();
+            replay<std::uint8_t>();
         } else if (bits == "64") {
-            gene_clocks::test::replay<std::uint64_t>();
+            replay<std::uint64_t>();
         } else {
             throw std::invalid_argument("usage: replay 8|64");
         }

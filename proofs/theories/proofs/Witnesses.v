@@ -250,6 +250,11 @@ Example family_at_the_end : held (evolve small family) 9 =
   [[Mark 1 0]; family_genome; thirds; ninths].
 Proof. vm_compute. reflexivity. Qed.
 
+(** Before the crash of 9: its two children by crossover, the second of which left genes out. *)
+Example family_before_the_crash : skipn 3 (held (evolve small (firstn 13 family)) 9) =
+  [thirds; family_genome ++ [Mark 5 9]; family_genome ++ [Mark 5 3]].
+Proof. vm_compute. reflexivity. Qed.
+
 Lemma ninths_in_swarm : in_swarm (evolve small family) ninths.
 Proof. left. exists 9. vm_compute. tauto. Qed.
 
@@ -360,6 +365,12 @@ Example markings_differ_in_excess_only_witness :
     [Matching (Mark 1 0) (Mark 1 0);
      Disjoint Second (Mark 2 2); Disjoint Second (Mark 3 2); Excess First (Mark 2 1)].
 Proof. split; reflexivity. Qed.
+
+(** 0.5 · 1 excess / 4 + 1.5 · 2 disjoint / 4 + 0.4 · 3 *)
+Example distance_witness :
+  (distance by_time (1#2) (3#2) (2#5) 4 (fun pairs => Z.of_nat (length pairs) * 3 # 1) of_one of_two
+   == 83#40)%Q.
+Proof. reflexivity. Qed.
 
 (** So with the paper's own coefficients for the two, the distances differ; with equal ones not. *)
 Example distance_marking_invariant_witness :

@@ -1,0 +1,19 @@
+/* The proved protocol (protocol.ml) inside another program. Not thread-safe. */
+#ifndef GENE_CLOCKS_ORACLE_IN_PROCESS_H
+#define GENE_CLOCKS_ORACLE_IN_PROCESS_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Once, before all else. */
+void gene_clocks_oracle_start(void);
+
+/* The answer to one line, or "malformed: " and what is wrong with it; good until the next call. */
+const char* gene_clocks_oracle_answer(const char* line);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* GENE_CLOCKS_ORACLE_IN_PROCESS_H */
