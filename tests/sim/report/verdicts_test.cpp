@@ -23,7 +23,7 @@ Arm constant_arm(const SampleArm& sample, double species, double added) {
     return arm;
 }
 
-const Exhibit& find(const std::vector<Exhibit>& exhibits, const std::string& id) {
+Exhibit find(const std::vector<Exhibit>& exhibits, const std::string& id) {
     return *std::ranges::find(exhibits, id, &Exhibit::id);
 }
 
