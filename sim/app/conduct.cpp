@@ -28,8 +28,7 @@ std::string utc_now() {
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
 }
 
-/// Every run of the study once, seed by seed, so that a study that is stopped has compared its arms
-/// on the same seeds. Two arms with the same settings share their runs.
+/// Every run of the study once: two arms with the same settings share their runs.
 std::vector<Task> all_tasks(const Study& study) {
     std::vector<Task> tasks;
     std::set<RunKey> planned;

@@ -146,10 +146,11 @@ std::size_t thread_count(const RunnerOptions& options, std::size_t tasks) {
 
 Outcome make_runs(std::vector<Task> tasks, const RunnerOptions& options, Progress& progress,
                   const std::function<void(const FinishedTask&)>& on_finished) {
-    // Longest first, so that no thread is left alone with a long run at the end.
+    // Longest first, so that no thread is left alone with a long run at the end; else seed by seed,
+    // so that a study that is stopped has compared its arms on the same seeds.
     std::ranges::sort(tasks, [](const Task& a, const Task& b) {
         if (a.robot_steps() != b.robot_steps()) return a.robot_steps() > b.robot_steps();
-        return std::tie(a.settings_hash, a.seed) < std::tie(b.settings_hash, b.seed);
+        return std::tie(a.seed, a.settings_hash) < std::tie(b.seed, b.settings_hash);
     });
     ProgressState state;
     state.runs_total = tasks.size();

@@ -82,7 +82,11 @@ TEST_F(ResumeTest, AKilledStudyEndsAsOneThatWasNot) {
         Program program(folder.path(), arguments("killed.sqlite"));
         std::this_thread::sleep_for(delay);
         program.signal(SIGKILL);
-        if (program.wait().status == 0) break;
+        const auto result = program.wait();
+        if (result.status != -SIGKILL) {
+            ASSERT_EQ(result.status, 0) << result.messages;
+            break;
+        }
         ++kills;
     }
     EXPECT_GE(kills, 3);

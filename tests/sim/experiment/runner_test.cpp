@@ -75,19 +75,24 @@ TEST_F(RunnerTest, UsesSoManyThreads) {
     EXPECT_EQ(make(tasks(threads), options), Outcome::finished);
 }
 
-TEST_F(RunnerTest, MakesLongRunsFirst) {
+TEST_F(RunnerTest, MakesLongRunsFirstAndElseGoesSeedBySeed) {
     sim::Settings longer;
     longer.run.cycles = settings.run.cycles + 1;
     auto all = tasks(4);
     all[2].settings = &longer;
-    std::vector<std::uint64_t> order;
+    all[3].seed = 1;
+    all[3].settings_hash = "another arm";
+    std::vector<std::pair<std::string, std::uint64_t>> order;
     RunnerOptions options{.threads = 1};
-    options.simulate = [&](const auto&, const auto&, std::uint64_t seed, auto*) {
-        order.push_back(seed);
+    options.simulate = [](const auto&, const auto&, std::uint64_t seed, auto*) {
         return std::optional(result_of(seed));
     };
-    make(all, options);
-    EXPECT_THAT(order, testing::ElementsAre(3, 1, 2, 4));
+    make_runs(all, options, silent, [&](const FinishedTask& run) {
+        order.emplace_back(run.task->settings_hash, run.task->seed);
+    });
+    using Key = std::pair<std::string, std::uint64_t>;
+    EXPECT_THAT(order, testing::ElementsAre(Key{"hash", 3}, Key{"another arm", 1}, Key{"hash", 1},
+                                            Key{"hash", 2}));
 }
 
 TEST_F(RunnerTest, StopsRunsUnderWayAndKeepsFinishedOnes) {
