@@ -75,12 +75,17 @@ void add_export_command(CLI::App& app, int& status) {
     auto* command = app.add_subcommand("export", "Write a store's runs as CSV");
     auto options = std::make_shared<Options>();
     command->add_option("STORE", options->store, "Store that `gene-clocks study` filled")
-        ->required();
-    command->add_option("--study", options->study, "Only this study's runs");
-    command->add_option("--runs", options->runs,
-                        "File for one line per run; - for standard output");
-    command->add_option("--samples", options->samples,
-                        "File for one line per sample of each run; - for standard output");
+        ->required()
+        ->type_name("FILE");
+    command->add_option("--study", options->study, "Only this study's runs")->type_name("NAME");
+    command
+        ->add_option("--runs", options->runs,
+                     "CSV file, a line for each run; - for standard output")
+        ->type_name("FILE");
+    command
+        ->add_option("--samples", options->samples,
+                     "CSV file, a line for each sample of each run; - likewise")
+        ->type_name("FILE");
     command->footer(
         "Example:\n  gene-clocks export results/gecco15.sqlite --runs runs.csv --samples "
         "samples.csv\n");

@@ -29,12 +29,17 @@ void add_report_command(CLI::App& app, int& status) {
         "report", "Write a page that shows a store's runs beside the paper's figures");
     auto options = std::make_shared<Options>();
     command->add_option("STORE", options->store, "Store that `gene-clocks study` filled")
-        ->required();
-    command->add_option("--study", options->studies,
-                        "Only this study; may be repeated. Without it all");
-    command->add_option("--output", options->output,
-                        "Folder for index.html, figures/ and report.json; without it the store's "
-                        "name, less its ending");
+        ->required()
+        ->type_name("FILE");
+    command
+        ->add_option("--study", options->studies,
+                     "Only this study; may be repeated. Without it all")
+        ->type_name("NAME");
+    command
+        ->add_option("--output", options->output,
+                     "Folder for index.html, figures/ and report.json; without it the store's "
+                     "name, less its ending")
+        ->type_name("FOLDER");
     command->footer("Example:\n  gene-clocks report results/gecco15.sqlite\n");
     command->callback([options, &status] { status = run(*options); });
 }

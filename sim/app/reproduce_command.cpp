@@ -62,7 +62,8 @@ void add_reproduce_command(CLI::App& app, int& status) {
     command->add_flag("--as-printed", options->as_printed,
                       "Also with the parameters of Table 1 under the labels printed there");
     command->add_option("--output", options->output, "Folder for the store and the report")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->type_name("FOLDER");
     command->footer(
         "Two tasks, each with gene clocks and with timestamps, 64 runs of 100 robots each: the "
         "studies\n"

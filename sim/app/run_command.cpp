@@ -117,7 +117,9 @@ int run(const RunOptions& options) {
                 print_text(finished);
             }
         });
-    return outcome == experiment::Outcome::finished ? success : interrupted;
+    if (outcome == experiment::Outcome::finished) return success;
+    fmt::print(stderr, "Stopped before the end of the run.\n");
+    return interrupted;
 }
 
 }  // namespace

@@ -30,23 +30,30 @@ Choice choose(const std::string& option, const std::string& text) {
 }  // namespace
 
 void SelectionOptions::add_to(CLI::App& command) {
-    command.add_option("--task", task, experiment::one_of(names<sim::Task>()))->required();
+    command.add_option("--task", task, experiment::one_of(names<sim::Task>()))
+        ->required()
+        ->type_name("NAME");
     command
         .add_option("--source", source,
                     "What marks new genes: " + experiment::one_of(names<sim::Source>()))
-        ->capture_default_str();
+        ->capture_default_str()
+        ->type_name("NAME");
     command
         .add_option("--profile", profile,
                     fmt::format("Where the settings start: {}, or a file ending in .toml",
                                 experiment::one_of(experiment::builtin_names(Builtin::profile))))
-        ->capture_default_str();
-    command.add_option(
-        "--parameters", parameters,
-        fmt::format("Set of odNEAT's parameters: {}; without it the task's own, as the "
-                    "published runs had it",
-                    experiment::one_of(experiment::parameter_set_names())));
-    command.add_option("--settings", settings_file,
-                       "TOML file of settings, over profile and parameters");
+        ->capture_default_str()
+        ->type_name("NAME");
+    command
+        .add_option("--parameters", parameters,
+                    fmt::format("Set of odNEAT's parameters: {}; without it the task's own, as the "
+                                "published runs had it",
+                                experiment::one_of(experiment::parameter_set_names())))
+        ->type_name("NAME");
+    command
+        .add_option("--settings", settings_file,
+                    "TOML file of settings, over profile and parameters")
+        ->type_name("FILE");
     add_assignments(command, assignments);
 }
 
@@ -73,7 +80,7 @@ sim::Settings SelectionOptions::settings() const {
 void add_assignments(CLI::App& command, std::vector<std::string>& assignments) {
     command
         .add_option("--set", assignments,
-                    "key=value: changes one setting; may be repeated. `gene-clocks settings` lists "
+                    "Changes one setting; may be repeated. `gene-clocks settings` lists "
                     "the keys")
         ->type_name("KEY=VALUE");
 }

@@ -60,8 +60,10 @@ void add_settings_command(CLI::App& app, int& status) {
     auto* command =
         app.add_subcommand("settings", "List the settings, or show those that a run would have");
     auto options = std::make_shared<Options>();
-    command->add_option("KEY", options->keys,
-                        "Only these keys or tables, as in odneat.p_mate or world");
+    command
+        ->add_option("KEY", options->keys,
+                     "Only these keys or tables, as in odneat.p_mate or world")
+        ->type_name("");
     options->selection.add_to(*command);
     command->get_option("--task")->required(false);
     command
@@ -70,9 +72,11 @@ void add_settings_command(CLI::App& app, int& status) {
             "text or markdown list all keys; toml or json show a run's settings, and need --task")
         ->capture_default_str()
         ->check(CLI::IsMember({"text", "markdown", "toml", "json"}));
-    command->add_option(
-        "--builtin", options->builtin,
-        "Print a built-in file to start one of your own from, as in studies/gecco15.toml");
+    command
+        ->add_option(
+            "--builtin", options->builtin,
+            "Print a built-in file to start one of your own from, as in studies/gecco15.toml")
+        ->type_name("PATH");
     command->footer(
         "Examples:\n"
         "  gene-clocks settings\n"

@@ -41,6 +41,16 @@ void print_plan(const Study& study) {
                study.seeds, study.arms.size() * static_cast<std::size_t>(study.seeds), steps / 1e6);
 }
 
+/// The built-in studies with their titles, for the help.
+std::string builtin_studies() {
+    std::string text = "Built-in studies:\n";
+    for (const std::string& name : experiment::builtin_names(experiment::Builtin::study)) {
+        const auto document = experiment::find_document(experiment::Builtin::study, name);
+        text += fmt::format("  {:<24} {}\n", name, document.table["title"].value_or(""));
+    }
+    return text;
+}
+
 int run(const Options& options) {
     const auto document = experiment::find_document(experiment::Builtin::study, options.study);
     const Study study = experiment::read_study(document, options.common.study_options());
@@ -60,18 +70,20 @@ void add_study_command(CLI::App& app, int& status) {
         "Make all runs of a study, or those that are still missing, and keep them in a store");
     auto options = std::make_shared<Options>();
     command
-        ->add_option(
-            "STUDY", options->study,
-            fmt::format("Study: {}, or a file ending in .toml",
-                        experiment::one_of(experiment::builtin_names(experiment::Builtin::study))))
-        ->required();
-    command->add_option("--store", options->store,
-                        "SQLite file for the results; without it results/STUDY.sqlite");
+        ->add_option("STUDY", options->study,
+                     "A built-in study, see below, or a file ending in .toml")
+        ->required()
+        ->type_name("NAME");
+    command
+        ->add_option("--store", options->store,
+                     "SQLite file for the results; without it results/STUDY.sqlite")
+        ->type_name("FILE");
     options->common.add_to(*command);
     command->add_flag("--dry-run", options->dry_run,
                       "Only check the study and show its arms and runs");
     command->footer(
-        "A study that was stopped, by Ctrl-C or a power cut, goes on where it was when the same "
+        builtin_studies() +
+        "\nA study that was stopped, by Ctrl-C or a power cut, goes on where it was when the same "
         "command\n"
         "is given again; finished runs are never made twice.\n\n"
         "Examples:\n"

@@ -6,7 +6,7 @@ namespace gene_clocks::app {
 
 void StudyCommandOptions::add_to(CLI::App& command) {
     command.add_flag("--quick", quick,
-                     "Few seeds and short runs: shows that all works, proves nothing");
+                     "Few seeds and short runs: shows that all works, too little to conclude from");
     command.add_option("--seeds", seeds, "Number of seeds, instead of the study's")
         ->type_name("N")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}));
