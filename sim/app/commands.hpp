@@ -20,5 +20,6 @@ void add_report_command(CLI::App& app, int& status);
 void add_reproduce_command(CLI::App& app, int& status);
 void add_settings_command(CLI::App& app, int& status);
 void add_export_command(CLI::App& app, int& status);
+void add_check_trace_command(CLI::App& app, int& status);
 
 }  // namespace gene_clocks::app

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 #include "arena_file.hpp"
 #include "choice_names.hpp"
@@ -14,6 +16,7 @@
 #include "stop_signal.hpp"
 #include "store.hpp"
 #include "summary.hpp"
+#include "trace_file.hpp"
 
 namespace gene_clocks::app {
 namespace {
@@ -25,6 +28,7 @@ struct RunOptions {
     SelectionOptions selection;
     std::uint64_t seed = 1;
     bool json = false;
+    std::string trace;
 };
 
 double rate(const sim::RunResult& result) {
@@ -107,6 +111,11 @@ int run(const RunOptions& options) {
 
     experiment::RunnerOptions runner;
     runner.stop = &watch_stop_signals();
+    std::optional<TraceFile> trace;
+    if (!options.trace.empty()) {
+        trace.emplace(options.trace, settings);
+        runner.simulate = trace->recording();
+    }
     const bool is_watched = isatty(STDERR_FILENO) != 0;
     experiment::Progress progress(is_watched ? stderr : nullptr);
     const auto outcome =
@@ -117,9 +126,12 @@ int run(const RunOptions& options) {
                 print_text(finished);
             }
         });
-    if (outcome == experiment::Outcome::finished) return success;
-    fmt::print(stderr, "Stopped before the end of the run.\n");
-    return interrupted;
+    if (outcome != experiment::Outcome::finished) {
+        fmt::print(stderr, "Stopped before the end of the run.\n");
+        return interrupted;
+    }
+    if (trace) trace->finish();
+    return success;
 }
 
 }  // namespace
@@ -134,6 +146,9 @@ void add_run_command(CLI::App& app, int& status) {
         ->type_name("N")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62U));
     command->add_flag("--json", options->json, "Print one JSON object instead of a table");
+    command->add_option("--trace", options->trace,
+                        "Also record every gene, message and reception in this file, for "
+                        "`gene-clocks check-trace`");
     command->footer(
         "Examples:\n"
         "  gene-clocks run --task navigation --seed 1\n"

@@ -171,12 +171,12 @@ Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64
       observer_(settings.run.record_creation_times ? &creation_log_ : observer) {
     const std::size_t robots = world_.robots();
     const auto topology = neat::make_initial_topology(layout_.count(), output_count);
-    const auto genesis_count = neat::genesis_mark_count(layout_.count(), output_count);
+    const std::uint64_t genesis = genesis_count(settings_);
     neat::RandomStream clock_random = make_stream(seed, Stream::clocks);
     agents_.reserve(robots);
     for (std::size_t i = 0; i < robots; ++i) {
         const RobotId robot{static_cast<std::uint32_t>(i + 1)};
-        auto source = make_source(settings_, robot, genesis_count, clock_random);
+        auto source = make_source(settings_, robot, genesis, clock_random);
         if (observer_ != nullptr) {
             source = std::make_unique<ObservedSource>(std::move(source), robot, *observer_);
         }
@@ -355,6 +355,10 @@ std::optional<RunResult> run(const Settings& settings, const Arena& arena, std::
 }
 
 }  // namespace
+
+std::uint64_t genesis_count(const Settings& settings) {
+    return neat::genesis_mark_count(InputLayout(settings.task).count(), output_count);
+}
 
 std::optional<RunResult> simulate(const Settings& settings, const Arena& arena, std::uint64_t seed,
                                   RunControl* control) {

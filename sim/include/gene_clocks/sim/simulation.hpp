@@ -59,6 +59,9 @@ struct RunControl {
     std::atomic<std::int64_t> cycles_done{0};
 };
 
+/// How many genesis marks the initial genome of such a run carries: gene clocks start above them.
+std::uint64_t genesis_count(const Settings& settings);
+
 /// Runs one experiment.
 /// Returns nullopt where `control->stop` was set before the end.
 /// Throws std::runtime_error where the arena has no free place for a robot or an item, and

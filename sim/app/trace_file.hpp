@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "runner.hpp"
+#include "trace_recorder.hpp"
+
+namespace gene_clocks::app {
+
+/// The trace of one run, in a file that is whole or not there: it is written beside, and renamed
+/// at the end.
+class TraceFile {
+public:
+    /// Throws InputError where the run's robots have no gene clocks, or nothing can be written.
+    TraceFile(const std::string& name, const sim::Settings& settings);
+    ~TraceFile();
+    TraceFile(const TraceFile&) = delete;
+    TraceFile& operator=(const TraceFile&) = delete;
+
+    /// Makes the run and records it; for one run only. Must not outlive this.
+    experiment::RunFunction recording();
+
+    /// Throws std::runtime_error where the trace could not be written as a whole.
+    void finish();
+
+private:
+    std::filesystem::path name_;
+    std::filesystem::path unfinished_;  ///< empty once renamed
+    std::ofstream out_;
+    trace::TraceRecorder recorder_;
+};
+
+}  // namespace gene_clocks::app
