@@ -1,0 +1,162 @@
+// The store on a real file system: what is refused and with which error.
+#include "gene_clocks/storage/file_store.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "gene_clocks/gene_clock.hpp"
+#include "temporary_folder.hpp"
+
+namespace gene_clocks::storage {
+namespace {
+
+constexpr RobotId robot{7};
+
+class FileStoreTest : public testing::Test {
+protected:
+    FileStore store(RobotId id = robot) const { return {PosixFiles{folder_.path().string()}, id}; }
+    std::filesystem::path copy(int number) const {
+        return folder_.path() / ("counter." + std::to_string(number));
+    }
+    static std::string contents(const std::filesystem::path& file) {
+        std::ifstream in{file, std::ios::binary};
+        return {std::istreambuf_iterator<char>{in}, {}};
+    }
+    static void write(const std::filesystem::path& file, const std::string& bytes) {
+        std::ofstream{file, std::ios::binary} << bytes;
+    }
+    StorageStatus reopened(std::uint64_t& counter) const {
+        auto again = store();
+        const auto status = again.open();
+        counter = again.stored();
+        return status;
+    }
+
+    test::TemporaryFolder folder_{std::filesystem::temp_directory_path()};
+};
+
+TEST_F(FileStoreTest, ReadsBackWhatItStored) {
+    {
+        auto first = store();
+        EXPECT_EQ(first.stored(), 0u);
+        EXPECT_EQ(first.open().error, StorageError::missing);
+        EXPECT_EQ(first.create(23).error, StorageError::none);
+        EXPECT_EQ(first.stored(), 23u);
+        EXPECT_TRUE(first.store(40));
+        EXPECT_TRUE(first.store(39)) << "a smaller counter is covered";
+        EXPECT_EQ(first.stored(), 40u);
+        EXPECT_EQ(first.flushes(), 2u);
+    }
+    std::uint64_t counter = 0;
+    EXPECT_TRUE(reopened(counter));
+    EXPECT_EQ(counter, 40u);
+    EXPECT_EQ(contents(copy(1)), contents(copy(2)));
+    EXPECT_EQ(contents(copy(1)).size(), counter_record_size);
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "counter.new"));
+}
+
+TEST_F(FileStoreTest, IsWrittenOnlyAfterItWasOpened) {
+    auto closed = store();
+    EXPECT_EQ(closed.store(5).error, StorageError::not_open);
+    EXPECT_EQ(closed.create(0).error, StorageError::bad_counter);
+    EXPECT_FALSE(std::filesystem::exists(copy(1)));
+}
+
+TEST_F(FileStoreTest, IsCreatedOnce) {
+    ASSERT_TRUE(store().create(5));
+    EXPECT_EQ(store().create(1).error, StorageError::exists);
+    std::filesystem::remove(copy(1));
+    EXPECT_EQ(store().create(1).error, StorageError::exists);
+    write(copy(2), "torn");
+    EXPECT_EQ(store().create(1).error, StorageError::damaged);
+}
+
+TEST_F(FileStoreTest, BelongsToOneProcess) {
+    auto first = store();
+    ASSERT_TRUE(first.create(5));
+    const auto status = store().open();
+    EXPECT_EQ(status.error, StorageError::in_use);
+    EXPECT_EQ(status.system_error, EWOULDBLOCK);
+}
+
+TEST_F(FileStoreTest, BelongsToOneRobot) {
+    ASSERT_TRUE(store().create(5));
+    EXPECT_EQ(store(RobotId{8}).open().error, StorageError::other_robot);
+    EXPECT_EQ(store(RobotId{8}).create(1).error, StorageError::other_robot);
+    std::uint64_t counter = 0;
+    EXPECT_TRUE(reopened(counter)) << "the refusal changed nothing";
+    EXPECT_EQ(counter, 5u);
+}
+
+TEST_F(FileStoreTest, OutlivesTheLossOfEitherCopy) {
+    for (const int lost : {1, 2}) {
+        for (const std::string& left : {std::string{}, std::string{"x"}, std::string(24, '\xff'),
+                                        std::string(25, '\0'), std::string(100'000, 'G')}) {
+            std::filesystem::remove(copy(1));
+            std::filesystem::remove(copy(2));
+            ASSERT_TRUE(store().create(77));
+            write(copy(lost), left);
+            std::uint64_t counter = 0;
+            EXPECT_TRUE(reopened(counter));
+            EXPECT_EQ(counter, 77u);
+            EXPECT_EQ(contents(copy(1)), contents(copy(2))) << "it was mended";
+        }
+    }
+}
+
+TEST_F(FileStoreTest, DoesNotGuessWhereBothCopiesAreLost) {
+    ASSERT_TRUE(store().create(77));
+    write(copy(1), "");
+    write(copy(2), std::string(24, '\0'));
+    EXPECT_EQ(store().open().error, StorageError::damaged);
+    std::filesystem::remove(copy(1));
+    EXPECT_EQ(store().open().error, StorageError::damaged);
+    EXPECT_EQ(contents(copy(2)), std::string(24, '\0')) << "the evidence is left alone";
+}
+
+TEST_F(FileStoreTest, SaysWhatTheSystemSays) {
+    FileStore nowhere{PosixFiles{(folder_.path() / "missing").string()}, robot};
+    EXPECT_EQ(nowhere.open(), (StorageStatus{StorageError::device, ENOENT}));
+
+    ASSERT_TRUE(store().create(5));
+    std::filesystem::remove(copy(1));
+    std::filesystem::create_directory(copy(1));
+    EXPECT_EQ(store().open(), (StorageStatus{StorageError::device, EISDIR}));
+}
+
+// A store that cannot be written keeps what it has, and may be tried again.
+TEST_F(FileStoreTest, KeepsTheOldCounterWhereTheNewOneCannotBeWritten) {
+    auto full = store();
+    ASSERT_TRUE(full.create(5));
+    std::filesystem::create_directory(folder_.path() / "counter.new");
+    EXPECT_EQ(full.store(6), (StorageStatus{StorageError::device, EISDIR}));
+    EXPECT_EQ(full.stored(), 5u);
+    std::filesystem::remove(folder_.path() / "counter.new");
+    EXPECT_TRUE(full.store(6));
+    EXPECT_EQ(full.stored(), 6u);
+}
+
+TEST_F(FileStoreTest, ARestartedClockGoesOnAboveAllThatItSent) {
+    InnovationNumber before;
+    {
+        auto durable = store();
+        ASSERT_TRUE(durable.create(23));
+        GeneClock clock{robot, 22, {.block = 10}};
+        before = clock.mint().value();
+        ASSERT_TRUE(durable.store(clock.durable_needed()));
+    }
+    auto durable = store();
+    ASSERT_TRUE(durable.open());
+    auto clock = GeneClock::restart(robot, durable.stored());
+    ASSERT_TRUE(clock);
+    EXPECT_LT(before, clock->mint());
+}
+
+}  // namespace
+}  // namespace gene_clocks::storage
