@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace gene_clocks::neat {
 namespace {
@@ -58,6 +59,13 @@ std::size_t common_prefix(const Topology& first, const Topology& second, std::si
     const InnovationNumber* a = first.connection_marks.data();
     const InnovationNumber* b = second.connection_marks.data();
     const std::size_t end = std::min(first.connection_marks.size(), second.connection_marks.size());
+    // Whole blocks first, without a branch for each mark.
+    constexpr std::size_t block = 8;
+    for (; from + block <= end; from += block) {
+        bool differs = false;
+        for (std::size_t i = from; i < from + block; ++i) differs |= a[i] != b[i];
+        if (differs) break;
+    }
     while (from < end && a[from] == b[from]) ++from;
     return from;
 }
@@ -68,32 +76,55 @@ struct Unmatched {
     std::size_t excess = 0;
 };
 
-/// Counts the unmatched genes from index `begin` on, and adds the matching ones to `term`. This is
-/// align(), counting instead of visiting, which takes two thirds of the time.
-Unmatched count_unmatched(const Genome& first, const Genome& second, std::size_t begin,
-                          WeightTerm& term) {
-    const std::span marks_a(first.topology->connection_marks);
-    const std::span marks_b(second.topology->connection_marks);
-    auto a = marks_a.begin() + static_cast<std::ptrdiff_t>(begin);
-    auto b = marks_b.begin() + static_cast<std::ptrdiff_t>(begin);
-    std::ptrdiff_t matching = 0;
-    while (a != marks_a.end() && b != marks_b.end()) {
+/// Merges two lists of marks up to the end of one of them; calls `on_match(a, b)` for equal ones.
+/// Returns where it stopped. This is align(), but it visits matching genes only and skips a run of
+/// others by counters alone: a processor cannot foretell which side comes next, so that fewer
+/// branches are less time.
+template <class OnMatch>
+std::pair<const InnovationNumber*, const InnovationNumber*> merge(const InnovationNumber* a,
+                                                                  const InnovationNumber* end_a,
+                                                                  const InnovationNumber* b,
+                                                                  const InnovationNumber* end_b,
+                                                                  OnMatch on_match) {
+    if (a == end_a || b == end_b) return {a, b};
+    for (;;) {
+        while (a->counter < b->counter) {
+            if (++a == end_a) return {a, b};
+        }
+        while (b->counter < a->counter) {
+            if (++b == end_b) return {a, b};
+        }
         if (*a < *b) {
-            ++a;
+            if (++a == end_a) return {a, b};
         } else if (*b < *a) {
-            ++b;
+            if (++b == end_b) return {a, b};
         } else {
-            const auto i = static_cast<std::size_t>(a++ - marks_a.begin());
-            const auto j = static_cast<std::size_t>(b++ - marks_b.begin());
-            const float both = first.enabled[i] * second.enabled[j];
-            term.sums(0) += both * std::abs(first.weights[i] - second.weights[j]);
-            term.counts(0) += both;
-            ++matching;
+            on_match(a++, b++);
+            if (a == end_a || b == end_b) return {a, b};
         }
     }
+}
+
+/// Counts the unmatched genes from index `begin` on, and adds the matching ones to `term`. Apart
+/// from distance(), so that the merge has the registers to itself.
+[[gnu::noinline]] Unmatched count_unmatched(const Genome& first, const Genome& second,
+                                            std::size_t begin, WeightTerm& term) {
+    const std::span marks_a(first.topology->connection_marks);
+    const std::span marks_b(second.topology->connection_marks);
+    const InnovationNumber* const end_a = marks_a.data() + marks_a.size();
+    const InnovationNumber* const end_b = marks_b.data() + marks_b.size();
+    std::size_t matches = begin;
+    const auto add = [&](const InnovationNumber* a, const InnovationNumber* b) {
+        const auto i = static_cast<std::size_t>(a - marks_a.data());
+        const auto j = static_cast<std::size_t>(b - marks_b.data());
+        const float both = first.enabled[i] * second.enabled[j];
+        term.sums(0) += both * std::abs(first.weights[i] - second.weights[j]);
+        term.counts(0) += both;
+        ++matches;
+    };
+    const auto [a, b] = merge(marks_a.data() + begin, end_a, marks_b.data() + begin, end_b, add);
     // One list has ended; what is left of the other is excess.
-    const auto excess = static_cast<std::size_t>((marks_a.end() - a) + (marks_b.end() - b));
-    const auto matches = begin + static_cast<std::size_t>(matching);
+    const auto excess = static_cast<std::size_t>((end_a - a) + (end_b - b));
     return {marks_a.size() + marks_b.size() - 2 * matches - excess, excess};
 }
 
