@@ -135,7 +135,7 @@ TEST_F(FileStoreTest, KeepsTheOldCounterWhereTheNewOneCannotBeWritten) {
     auto full = store();
     ASSERT_TRUE(full.create(5));
     std::filesystem::create_directory(folder_.path() / "counter.new");
-    EXPECT_EQ(full.store(6), (StorageStatus{StorageError::device, EISDIR}));
+    EXPECT_EQ(full.store(6), (StorageStatus{StorageError::device, EEXIST}));
     EXPECT_EQ(full.stored(), 5u);
     std::filesystem::remove(folder_.path() / "counter.new");
     EXPECT_TRUE(full.store(6));

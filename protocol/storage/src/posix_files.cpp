@@ -79,7 +79,9 @@ int PosixFiles::read(const char* name, std::span<std::byte> bytes, std::size_t& 
 
 int PosixFiles::write_temporary(std::span<const std::byte> bytes) {
     close_if_open(temporary_descriptor_);
-    if (const int error = open_in(folder_descriptor_, temporary_name, O_WRONLY | O_CREAT | O_TRUNC,
+    // Always a new file: never one that is still, or also, known under another name.
+    ::unlinkat(folder_descriptor_, temporary_name, 0);
+    if (const int error = open_in(folder_descriptor_, temporary_name, O_WRONLY | O_CREAT | O_EXCL,
                                   temporary_descriptor_)) {
         return error;
     }
