@@ -18,8 +18,12 @@ namespace gene_clocks::neat {
 
 /// What a robot broadcasts (paper, section 3.2): its active genome, its energy, and what its
 /// innovation source adds; with gene clocks that is the counter c_r.
+///
+/// Invariants: the genome is valid (see `find_fault`) and has the initial genes that all robots
+/// start from; the energy is finite. What comes off a wire gets them from `MessageCodec::decode`,
+/// which refuses everything else.
 struct Message {
-    std::shared_ptr<const Genome> genome;
+    std::shared_ptr<const Genome> genome;  ///< never null
     float energy{};
     Stamp stamp;
 };
@@ -61,6 +65,7 @@ public:
         return message_;
     }
 
+    /// Precondition: the invariants of `Message`; they are not checked again here.
     Reception receive(const Message& message);
 
     /// Runs the controller; see Controller::update.

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "gene_clocks/genome_payload.h"
+#include "gene_clocks/neat/agent.hpp"
+#include "gene_clocks/neat/genome.hpp"
+#include "gene_clocks/neat/settings.hpp"
+#include "gene_clocks/wire.hpp"
+
+namespace gene_clocks::neat {
+
+/// A message off the wire. Its genome is valid (see `find_fault`) and has the fleet's initial
+/// genes, so that `Agent::receive` may be given it.
+struct ReceivedMessage {
+    RobotId sender{};
+    Message message;
+};
+
+/// The limits of a fleet that runs odNEAT with these settings from this initial topology.
+WireLimits wire_limits(const Topology& initial, const OdneatSettings& settings);
+
+/// Turns messages into frames of the wire format and back (docs/wire-format.md): the door between
+/// an agent and strangers. What comes out of `decode` is a valid message, whatever went in; what
+/// `encode` writes decodes to the same message, and no other bytes do.
+///
+/// Marks must be those of gene clocks: a message with a stamp that is not above its genes, as
+/// other innovation sources send it, is refused. Not thread-safe: one owner.
+class MessageCodec {
+public:
+    /// `initial` is the topology that all robots start from; its marks are the genesis marks
+    /// 1…limits.genesis_count.
+    MessageCodec(std::shared_ptr<const Topology> initial, const WireLimits& limits);
+
+    /// The frame that carries `message`; valid until the next call. Refused is what `decode` would
+    /// refuse. Precondition: the arrays of the genome are parallel.
+    WireResult<std::span<const std::uint8_t>> encode(RobotId sender, const Message& message);
+
+    /// The message in a frame; refused ones leave no trace. Memory that it takes is bounded by
+    /// the limits, and by 32 bytes for each byte of the frame. A genome with no genes but the
+    /// initial ones shares `initial`.
+    WireResult<ReceivedMessage> decode(std::span<const std::uint8_t> frame);
+
+private:
+    struct Reading;
+    kernel::gene_clocks_fault read_gene(Reading& reading) const;
+    kernel::gene_clocks_fault write_genes(kernel::gene_clocks_genome_writer& writer,
+                                          const Genome& genome) const;
+
+    std::shared_ptr<const Topology> initial_;
+    std::vector<kernel::gene_clocks_gene> initial_genes_;  // in the order of marks
+    WireLimits limits_;
+    kernel::gene_clocks_wire_limits kernel_limits_;
+    std::vector<kernel::gene_clocks_ends> ends_;  // scratch: as many as limits_.connections
+    std::vector<std::uint8_t> buffer_;            // scratch: the frame that was written last
+};
+
+}  // namespace gene_clocks::neat

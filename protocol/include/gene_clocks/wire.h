@@ -1,0 +1,302 @@
+/* The wire format, version 1 (docs/wire-format.md): frames. In C99 and in constexpr C++20 at once,
+ * like kernel.h.
+ *
+ * No allocation, no I/O, no global state; no assumption on byte order, alignment or the processor's
+ * floating point: numbers are put together from bytes, and floats are compared as bit patterns.
+ * Every length is checked before it is used. What is read may be anything at all.
+ */
+#ifndef GENE_CLOCKS_WIRE_H
+#define GENE_CLOCKS_WIRE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "gene_clocks/checksum.h"
+
+/* clang-format off */
+#ifdef __cplusplus
+#include <bit>
+#define GENE_CLOCKS_FUNCTION constexpr
+#define GENE_CLOCKS_BITS_OF(number) std::bit_cast<uint32_t>(number)
+#define GENE_CLOCKS_FLOAT_OF(bits) std::bit_cast<float>(bits)
+namespace gene_clocks::kernel {
+#else
+#include <stdbool.h>
+#define GENE_CLOCKS_FUNCTION static inline
+union gene_clocks_float { float number; uint32_t bits; };
+#define GENE_CLOCKS_BITS_OF(value) ((union gene_clocks_float){.number = (value)}.bits)
+#define GENE_CLOCKS_FLOAT_OF(value) ((union gene_clocks_float){.bits = (value)}.number)
+#endif
+/* clang-format on */
+
+/* ---- What can be wrong ---------------------------------------------------------------------- */
+
+/* Why bytes are refused, or why something cannot be written. */
+enum gene_clocks_wire_error {
+    gene_clocks_wire_ok,
+    gene_clocks_wire_truncated,      /* a field ends beyond the bytes */
+    gene_clocks_wire_trailing,       /* bytes are left over */
+    gene_clocks_wire_too_long,       /* more bytes than the limits allow */
+    gene_clocks_wire_version,        /* not version 1 */
+    gene_clocks_wire_not_shortest,   /* the same value has a shorter encoding */
+    gene_clocks_wire_out_of_range,   /* a number has more bits than its field */
+    gene_clocks_wire_checksum,       /* the bytes are not those that were sent */
+    gene_clocks_wire_robot,          /* robot 0 is reserved for the initial genes */
+    gene_clocks_wire_stamp,          /* no clock of this fleet has such a stamp */
+    gene_clocks_wire_energy,         /* not finite, or beyond the limit */
+    gene_clocks_wire_too_many_genes, /* more than the limits allow */
+    gene_clocks_wire_gene_count,     /* not as many genes of a kind as announced */
+    gene_clocks_wire_not_ascending,  /* a mark is not above the one before it */
+    gene_clocks_wire_not_below,      /* a mark is not below the stamp */
+    gene_clocks_wire_genesis, /* an initial gene outside the genesis marks, or another inside */
+    gene_clocks_wire_kind,    /* inputs, one bias, outputs, then the rest */
+    gene_clocks_wire_ends,    /* a connection without its neurons, or into an input */
+    gene_clocks_wire_repeated_ends, /* two connections join the same neurons */
+    gene_clocks_wire_weight,        /* not finite, or beyond the limit */
+    gene_clocks_wire_no_room        /* writing: the buffer is too small */
+};
+
+/* What is wrong, and where: the first byte of the field or, where several fields do not go
+ * together, of the gene. */
+struct gene_clocks_fault {
+    enum gene_clocks_wire_error error;
+    size_t offset;
+};
+
+GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_fault_at(
+    enum gene_clocks_wire_error error, size_t offset) {
+    struct gene_clocks_fault fault = {error, offset};
+    return fault;
+}
+
+/* What a deployment admits. Floats bound magnitudes; they are not negative and may be infinite
+ * (still, only finite numbers are admitted). */
+struct gene_clocks_wire_limits {
+    uint32_t frame_bytes;   /* of a whole frame */
+    uint64_t genesis_count; /* genesis marks 1 ... genesis_count, the same in the whole fleet */
+    uint16_t neurons;       /* neuron genes of a genome */
+    uint16_t connections;   /* connection genes of a genome */
+    float energy;
+    float weight;
+};
+
+/* ---- Bytes ---------------------------------------------------------------------------------- */
+
+/* Bytes to read. Invariant: offset <= size. Where reading fails, the offset stays. */
+struct gene_clocks_reader {
+    const uint8_t* bytes;
+    size_t size;
+    size_t offset;
+};
+
+/* Where to write. What does not fit is counted and not written, so that a writer without room
+ * tells how much is needed. */
+struct gene_clocks_writer {
+    uint8_t* bytes;
+    size_t capacity;
+    size_t size; /* what was written, or would have been; an error if above capacity */
+};
+
+GENE_CLOCKS_FUNCTION void gene_clocks_put_byte(struct gene_clocks_writer* writer, uint8_t byte) {
+    if (writer->size < writer->capacity) writer->bytes[writer->size] = byte;
+    ++writer->size;
+}
+
+/* Reads an unsigned LEB128 number of at most `bits` bits (16, 32 or 64) in its shortest form. */
+GENE_CLOCKS_FUNCTION enum gene_clocks_wire_error gene_clocks_get_varint(
+    struct gene_clocks_reader* reader, unsigned bits, uint64_t* value) {
+    size_t at = reader->offset;
+    uint64_t result = 0;
+    for (unsigned shift = 0;; shift += 7) {
+        if (at == reader->size) return gene_clocks_wire_truncated;
+        const uint8_t byte = reader->bytes[at++];
+        /* The last byte that fits has fewer than eight bits left, and none to go on. */
+        if (bits - shift < 8 && byte >> (bits - shift) != 0) return gene_clocks_wire_out_of_range;
+        result |= (uint64_t)(byte & 0x7fu) << shift;
+        if (byte < 0x80u) {
+            if (byte == 0 && shift != 0) return gene_clocks_wire_not_shortest;
+            break;
+        }
+    }
+    reader->offset = at;
+    *value = result;
+    return gene_clocks_wire_ok;
+}
+
+GENE_CLOCKS_FUNCTION void gene_clocks_put_varint(struct gene_clocks_writer* writer,
+                                                 uint64_t value) {
+    for (; value >= 0x80u; value >>= 7) {
+        gene_clocks_put_byte(writer, (uint8_t)(0x80u | (value & 0x7fu)));
+    }
+    gene_clocks_put_byte(writer, (uint8_t)value);
+}
+
+/* Four bytes, little-endian. Precondition: offset + 4 <= size. */
+GENE_CLOCKS_FUNCTION uint32_t gene_clocks_word_at(const uint8_t* bytes, size_t offset) {
+    return (uint32_t)bytes[offset] | (uint32_t)bytes[offset + 1] << 8 |
+           (uint32_t)bytes[offset + 2] << 16 | (uint32_t)bytes[offset + 3] << 24;
+}
+
+GENE_CLOCKS_FUNCTION enum gene_clocks_wire_error gene_clocks_get_word(
+    struct gene_clocks_reader* reader, uint32_t* value) {
+    if (reader->size - reader->offset < 4) return gene_clocks_wire_truncated;
+    *value = gene_clocks_word_at(reader->bytes, reader->offset);
+    reader->offset += 4;
+    return gene_clocks_wire_ok;
+}
+
+GENE_CLOCKS_FUNCTION void gene_clocks_put_word(struct gene_clocks_writer* writer, uint32_t value) {
+    for (unsigned shift = 0; shift < 32; shift += 8) {
+        gene_clocks_put_byte(writer, (uint8_t)(value >> shift & 0xffu));
+    }
+}
+
+/* Whether the float of these bits is finite and its magnitude at most `limit`. IEEE 754 orders
+ * magnitudes as it orders their bits, so that no floating point is needed. */
+GENE_CLOCKS_FUNCTION bool gene_clocks_is_within(uint32_t bits, float limit) {
+    const uint32_t magnitude = bits & 0x7fffffffu;
+    return magnitude < 0x7f800000u && magnitude <= GENE_CLOCKS_BITS_OF(limit);
+}
+
+/* ---- Frames --------------------------------------------------------------------------------- */
+
+enum { gene_clocks_wire_version_1 = 1, gene_clocks_checksum_bytes = 4 };
+
+/* The most bytes of a frame that are not payload: version, sender, stamp, energy, payload length
+ * and checksum. */
+enum { gene_clocks_frame_overhead_bytes = 1 + 5 + 10 + 4 + 5 + gene_clocks_checksum_bytes };
+
+/* What a robot broadcasts (paper, section 3.2). */
+struct gene_clocks_frame {
+    uint64_t stamp; /* the sender's next unused counter */
+    uint32_t sender;
+    float energy;
+    const uint8_t* payload; /* lies within the frame's bytes */
+    size_t payload_size;
+};
+
+/* What every frame of a fleet keeps to, whichever way it goes. */
+GENE_CLOCKS_FUNCTION bool gene_clocks_is_sender(uint64_t sender) {
+    return sender != 0;
+}
+GENE_CLOCKS_FUNCTION bool gene_clocks_is_stamp(uint64_t stamp,
+                                               const struct gene_clocks_wire_limits* limits) {
+    return stamp > limits->genesis_count; /* clocks start above the genesis marks */
+}
+
+/* Reads the fields before the payload; `reader` is then at the payload. */
+GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_get_frame_header(
+    struct gene_clocks_reader* reader, const struct gene_clocks_wire_limits* limits,
+    struct gene_clocks_frame* frame) {
+    enum gene_clocks_wire_error error = gene_clocks_wire_ok;
+    uint64_t sender = 0, stamp = 0, payload_size = 0;
+    uint32_t energy = 0;
+    if (reader->size == 0) return gene_clocks_fault_at(gene_clocks_wire_truncated, 0);
+    if (reader->bytes[0] != gene_clocks_wire_version_1) {
+        return gene_clocks_fault_at(gene_clocks_wire_version, 0);
+    }
+    reader->offset = 1;
+    size_t field = reader->offset;
+    error = gene_clocks_get_varint(reader, 32, &sender);
+    if (!error && !gene_clocks_is_sender(sender)) error = gene_clocks_wire_robot;
+    if (error) return gene_clocks_fault_at(error, field);
+    field = reader->offset;
+    error = gene_clocks_get_varint(reader, 64, &stamp);
+    if (!error && !gene_clocks_is_stamp(stamp, limits)) error = gene_clocks_wire_stamp;
+    if (error) return gene_clocks_fault_at(error, field);
+    field = reader->offset;
+    error = gene_clocks_get_word(reader, &energy);
+    if (!error && !gene_clocks_is_within(energy, limits->energy)) error = gene_clocks_wire_energy;
+    if (error) return gene_clocks_fault_at(error, field);
+    field = reader->offset;
+    error = gene_clocks_get_varint(reader, 32, &payload_size);
+    if (error) return gene_clocks_fault_at(error, field);
+
+    const size_t left = reader->size - reader->offset;
+    if (left < gene_clocks_checksum_bytes || left - gene_clocks_checksum_bytes < payload_size) {
+        return gene_clocks_fault_at(gene_clocks_wire_truncated, field);
+    }
+    if (left - gene_clocks_checksum_bytes > payload_size) {
+        return gene_clocks_fault_at(
+            gene_clocks_wire_trailing,
+            reader->offset + (size_t)payload_size + gene_clocks_checksum_bytes);
+    }
+    frame->sender = (uint32_t)sender;
+    frame->stamp = stamp;
+    frame->energy = GENE_CLOCKS_FLOAT_OF(energy);
+    frame->payload = reader->bytes + reader->offset;
+    frame->payload_size = (size_t)payload_size;
+    return gene_clocks_fault_at(gene_clocks_wire_ok, 0);
+}
+
+/* Reads a frame, whose payload stays where it is: `bytes` must outlive the use of it. Where the
+ * frame is refused, `frame` does not change. */
+GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_decode_frame(
+    const uint8_t* bytes, size_t size, const struct gene_clocks_wire_limits* limits,
+    struct gene_clocks_frame* frame) {
+    if (size > limits->frame_bytes) {
+        return gene_clocks_fault_at(gene_clocks_wire_too_long, limits->frame_bytes);
+    }
+    struct gene_clocks_reader reader = {bytes, size, 0};
+    struct gene_clocks_frame read = {0, 0, 0.0f, NULL, 0};
+    const struct gene_clocks_fault fault = gene_clocks_get_frame_header(&reader, limits, &read);
+    if (fault.error) return fault;
+    const size_t end = size - gene_clocks_checksum_bytes;
+    if (gene_clocks_word_at(bytes, end) != gene_clocks_crc32c(bytes, end)) {
+        return gene_clocks_fault_at(gene_clocks_wire_checksum, end);
+    }
+    *frame = read;
+    return fault;
+}
+
+/* Writes a frame and its size. The payload may lie in the buffer already, at or behind its place.
+ * Where the frame would be refused by its receivers, or does not fit, only `size` is set: to the
+ * bytes needed where the error is gene_clocks_wire_no_room, else to 0. */
+GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_encode_frame(
+    const struct gene_clocks_frame* frame, const struct gene_clocks_wire_limits* limits,
+    uint8_t* buffer, size_t capacity, size_t* size) {
+    *size = 0;
+    if (!gene_clocks_is_sender(frame->sender)) {
+        return gene_clocks_fault_at(gene_clocks_wire_robot, 0);
+    }
+    if (!gene_clocks_is_stamp(frame->stamp, limits)) {
+        return gene_clocks_fault_at(gene_clocks_wire_stamp, 0);
+    }
+    if (!gene_clocks_is_within(GENE_CLOCKS_BITS_OF(frame->energy), limits->energy)) {
+        return gene_clocks_fault_at(gene_clocks_wire_energy, 0);
+    }
+    /* The header first in a place of its own: nothing is written before all is known to fit. */
+    uint8_t header[gene_clocks_frame_overhead_bytes] = {0};
+    struct gene_clocks_writer writer = {header, sizeof header, 0};
+    gene_clocks_put_byte(&writer, gene_clocks_wire_version_1);
+    gene_clocks_put_varint(&writer, frame->sender);
+    gene_clocks_put_varint(&writer, frame->stamp);
+    gene_clocks_put_word(&writer, GENE_CLOCKS_BITS_OF(frame->energy));
+    gene_clocks_put_varint(&writer, frame->payload_size);
+    const size_t header_size = writer.size;
+    const size_t around = header_size + gene_clocks_checksum_bytes;
+    if (limits->frame_bytes < around || limits->frame_bytes - around < frame->payload_size) {
+        return gene_clocks_fault_at(gene_clocks_wire_too_long, limits->frame_bytes);
+    }
+    *size = around + frame->payload_size;
+    if (*size > capacity) return gene_clocks_fault_at(gene_clocks_wire_no_room, capacity);
+
+    for (size_t i = 0; i < frame->payload_size; ++i) buffer[header_size + i] = frame->payload[i];
+    for (size_t i = 0; i < header_size; ++i) buffer[i] = header[i];
+    const size_t end = *size - gene_clocks_checksum_bytes;
+    writer.bytes = buffer;
+    writer.capacity = capacity;
+    writer.size = end;
+    gene_clocks_put_word(&writer, gene_clocks_crc32c(buffer, end));
+    return gene_clocks_fault_at(gene_clocks_wire_ok, 0);
+}
+
+#ifdef __cplusplus
+} /* namespace gene_clocks::kernel */
+#endif
+
+#undef GENE_CLOCKS_FUNCTION
+#undef GENE_CLOCKS_BITS_OF
+#undef GENE_CLOCKS_FLOAT_OF
+
+#endif /* GENE_CLOCKS_WIRE_H */
