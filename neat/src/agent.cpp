@@ -62,13 +62,15 @@ Reception Agent::receive(const Message& message) {
     if (!source_->observe(message.stamp)) return Reception::refused;
     if (!tabu_.approves(*message.genome)) return Reception::tabu;
 
+    const auto held = population_.find(message.genome->id);
     const auto worst = population_.worst(active().id);
     const bool has_room = !population_.is_full();
     const bool is_fitter = worst && population_.members()[*worst].fitness < message.energy;
-    if (!has_room && !is_fitter) return Reception::unfit;
+    const bool counts_anyway = held && settings_.held_reports == HeldReports::all;
+    if (!has_room && !is_fitter && !counts_anyway) return Reception::unfit;
 
     share_is_current_ = false;
-    if (const auto held = population_.find(message.genome->id)) {
+    if (held) {
         population_.report(*held, message.energy, settings_.held_energy);
         return Reception::updated;
     }

@@ -31,6 +31,9 @@ inline constexpr std::array<std::string_view, 2> choice_names<neat::WeightDiffer
 template <>
 inline constexpr std::array<std::string_view, 2> choice_names<neat::HeldEnergy> = {"overwrite",
                                                                                    "running-mean"};
+template <>
+inline constexpr std::array<std::string_view, 2> choice_names<neat::HeldReports> = {"all",
+                                                                                    "acceptable"};
 
 /// The name of a choice. Throws std::out_of_range for a value that has none.
 template <typename Choice>

@@ -117,6 +117,9 @@ std::vector<Setting> odneat_rows() {
             "how the weight differences of matching genes enter the distance"),
         odneat<&S::held_energy>("odneat.held_energy", unused, "", "3.2",
                                 "what the energy received with a genome already held does"),
+        odneat<&S::held_reports>("odneat.held_reports", unused, "", "3.2",
+                                 "which messages about a genome already held count: all, or only "
+                                 "those with the energy that a new genome would need"),
         odneat<&S::weight_limit>("odneat.weight_limit", {0, 1e6, true}, "", "3.2",
                                  "weights stay within plus and minus this"),
         odneat<&S::activation_slope>("odneat.activation_slope", {0, 1e3, true}, "", "",

@@ -186,8 +186,19 @@ TEST_F(AgentTest, TheEnergyOfAHeldGenomeIsOverwrittenWhereTheSettingsSaySo) {
     EXPECT_EQ(fitness_of(agent, {RobotId{9}, 0}), 40.0f);
 }
 
-TEST_F(AgentTest, AHeldGenomeMustPassTheAcceptanceTestFirst) {
+TEST_F(AgentTest, EveryReportOfAHeldGenomeCounts) {
     settings_.held_energy = HeldEnergy::overwrite;
+    Agent agent = make_agent();
+    agent.receive(message(0, 9.0f, 50.0f));
+    agent.receive(message(1, -9.0f, 40.0f));
+    // Full, and a new genome with this energy would not be accepted.
+    EXPECT_EQ(agent.receive(message(0, 9.0f, 30.0f)), Reception::updated);
+    EXPECT_EQ(fitness_of(agent, {RobotId{9}, 0}), 30.0f);
+}
+
+TEST_F(AgentTest, AHeldGenomeMustPassTheAcceptanceTestFirstWhereTheSettingsSaySo) {
+    settings_.held_energy = HeldEnergy::overwrite;
+    settings_.held_reports = HeldReports::acceptable;
     Agent agent = make_agent();
     agent.receive(message(0, 9.0f, 50.0f));
     agent.receive(message(1, -9.0f, 40.0f));

@@ -16,6 +16,12 @@ enum class HeldEnergy : std::uint8_t {
     running_mean,  ///< is averaged in (paper, section 3.2)
 };
 
+/// Which messages about a genome that the receiver already holds count.
+enum class HeldReports : std::uint8_t {
+    all,         ///< every one that the tabu list lets pass (paper, section 3.2)
+    acceptable,  ///< only one whose energy would gain a new genome admission (paper, Algorithm 1)
+};
+
 /// The parameters of odNEAT (paper, Table 1 and section 3.2). Defaults: set B, as run.
 struct OdneatSettings {
     double p_mate = 0.212;        ///< probability that an offspring has two parents
@@ -36,6 +42,7 @@ struct OdneatSettings {
     std::int64_t tabu_receptions = 50;  ///< receptions that a tabu entry lasts
     WeightDifference weight_difference = WeightDifference::sum;
     HeldEnergy held_energy = HeldEnergy::running_mean;
+    HeldReports held_reports = HeldReports::all;
 
     double weight_limit = 10.0;          ///< weights stay within ±weight_limit
     double activation_slope = 4.924273;  ///< k in 1 / (1 + exp(−k x))
