@@ -42,6 +42,8 @@ void report_on(const std::filesystem::path& file, const std::vector<std::string>
         if (input.study.empty()) {
             input.study = study.name;
             input.title = study.title;
+        } else {
+            input.title += "; " + study.title;
         }
         for (const experiment::StoredArm& arm : study.arms) {
             input.arms.push_back(arm_of(store, study, arm));
