@@ -4,5 +4,5 @@ open Words
 let () =
   let at = ref 0 in
   try
-    for_each_line stdin (fun line words -> at := line; print_endline (Protocol.answer words))
+    for_each_line at (lines_of stdin) (fun words -> print_endline (Protocol.answer words))
   with Malformed why -> Printf.eprintf "line %d: %s\n" !at why; exit 2

@@ -41,11 +41,26 @@ let read_limits maximum block window genesis =
   if not (N.ltb l.genesis_count l.maximum) then malformed "no room above the genesis marks";
   l
 
-(* Calls [obey] with each line's number and words, which one space parts. *)
-let for_each_line channel obey =
-  let rec go number =
-    match input_line channel with
-    | exception End_of_file -> ()
-    | line -> obey number (String.split_on_char ' ' line); go (number + 1)
+(* Lines, each with whether it has its end, which the last one may lack. *)
+let rec lines_of channel () =
+  let start = pos_in channel in
+  match input_line channel with
+  | exception End_of_file -> Seq.Nil
+  | line -> Seq.Cons ((line, pos_in channel > start + String.length line), lines_of channel)
+
+let lines_of_text text =
+  let rec lines = function
+    | [] | [ "" ] -> []
+    | [ cut ] -> [ (cut, false) ]
+    | line :: rest -> (line, true) :: lines rest
   in
-  go 1
+  List.to_seq (lines (String.split_on_char '\n' text))
+
+(* Calls [obey] with each line's words, which one space parts; [at] is the line's number. *)
+let for_each_line at lines obey =
+  let each (line, ended) =
+    incr at;
+    if not ended then malformed "cut short: the line has no end";
+    obey (String.split_on_char ' ' line)
+  in
+  Seq.iter each lines

@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 
 #include "commands.hpp"
 #include "csv_export.hpp"
 #include "input_error.hpp"
+#include "output_file.hpp"
 #include "store.hpp"
 
 namespace gene_clocks::app {
@@ -25,8 +25,7 @@ struct Options {
     std::string samples;
 };
 
-/// Writes beside the file and renames, so that the file is whole or not there; "-" is standard
-/// output.
+/// "-" is standard output.
 void write_file(const std::string& name, const std::function<void(std::ostream&)>& write) {
     if (name == "-") {
         write(std::cout);
@@ -34,18 +33,9 @@ void write_file(const std::string& name, const std::function<void(std::ostream&)
         if (!std::cout) throw std::runtime_error("standard output cannot be written");
         return;
     }
-    const std::string unfinished = name + ".part";
-    {
-        std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
-        if (!stream) throw InputError(name + ": cannot be written there");
-        write(stream);
-        stream.close();
-        if (!stream) {
-            std::filesystem::remove(unfinished);
-            throw std::runtime_error(name + ": writing failed");
-        }
-    }
-    std::filesystem::rename(unfinished, name);
+    OutputFile file(name);
+    write(file.stream());
+    file.finish();
 }
 
 int run(const Options& options) {

@@ -28,6 +28,9 @@ std::string explain(const CLI::App& application, const CLI::ParseError& error) {
     for (const CLI::Option* option : command->get_options()) known.push_back(option->get_name());
     for (const std::string& word : application.remaining(true)) {
         if (word == "--") continue;
+        if (command != &application && !word.starts_with('-')) {
+            return fmt::format("{}: one argument too many", word);
+        }
         return fmt::format("{}: there is no such {}{}", word,
                            word.starts_with('-') ? "option" : "command",
                            experiment::suggestion(word, known));

@@ -28,7 +28,7 @@ struct RunOptions {
     SelectionOptions selection;
     std::uint64_t seed = 1;
     bool json = false;
-    std::string trace;
+    std::optional<std::string> trace;
 };
 
 double rate(const sim::RunResult& result) {
@@ -112,8 +112,8 @@ int run(const RunOptions& options) {
     experiment::RunnerOptions runner;
     runner.stop = &watch_stop_signals();
     std::optional<TraceFile> trace;
-    if (!options.trace.empty()) {
-        trace.emplace(options.trace, settings);
+    if (options.trace) {
+        trace.emplace(*options.trace, settings);
         runner.simulate = trace->recording();
     }
     const bool is_watched = isatty(STDERR_FILENO) != 0;
@@ -146,14 +146,17 @@ void add_run_command(CLI::App& app, int& status) {
         ->type_name("N")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62U));
     command->add_flag("--json", options->json, "Print one JSON object instead of a table");
-    command->add_option("--trace", options->trace,
-                        "Also record every gene, message and reception in this file, for "
-                        "`gene-clocks check-trace`");
+    command
+        ->add_option("--trace", options->trace,
+                     "Also write the run's trace: every gene, message and reception, for "
+                     "`gene-clocks check-trace`")
+        ->type_name("FILE");
     command->footer(
         "Examples:\n"
         "  gene-clocks run --task navigation --seed 1\n"
         "  gene-clocks run --task collection --source timestamp --profile gecco15 --seed 7 --json\n"
-        "  gene-clocks run --task navigation --set odneat.p_mate=0.5 --set run.cycles=5000\n");
+        "  gene-clocks run --task navigation --set odneat.p_mate=0.5 --set run.cycles=5000\n"
+        "  gene-clocks run --task navigation --seed 1 --trace run.trace\n");
     command->callback([options, &status] { status = run(*options); });
 }
 

@@ -1,32 +1,26 @@
 #include "trace_file.hpp"
 
-#include <fmt/format.h>
-
-#include <stdexcept>
-#include <system_error>
-
 #include "input_error.hpp"
 
 namespace gene_clocks::app {
+namespace {
+
+using experiment::InputError;
+
+const std::string& checked(const std::string& name, const sim::Settings& settings) {
+    if (settings.source != sim::Source::gene_clock) {
+        throw InputError("--trace: only robots with gene clocks leave a trace");
+    }
+    if (name == "-") {
+        throw InputError("--trace: needs a file, for standard output is where the result goes");
+    }
+    return name;
+}
+
+}  // namespace
 
 TraceFile::TraceFile(const std::string& name, const sim::Settings& settings)
-    : name_(name), recorder_(out_, sim::genesis_count(settings)) {
-    if (settings.source != sim::Source::gene_clock) {
-        throw experiment::InputError("--trace: only robots with gene clocks leave a trace");
-    }
-    unfinished_ = name + ".part";
-    out_.open(unfinished_, std::ios::binary | std::ios::trunc);
-    if (!out_) {
-        unfinished_.clear();
-        throw experiment::InputError(name + ": cannot be written there");
-    }
-}
-
-TraceFile::~TraceFile() {
-    if (unfinished_.empty()) return;
-    std::error_code ignored;
-    std::filesystem::remove(unfinished_, ignored);
-}
+    : file_(checked(name, settings)), recorder_(file_.stream(), sim::genesis_count(settings)) {}
 
 experiment::RunFunction TraceFile::recording() {
     return [this](const sim::Settings& settings, const sim::Arena& arena, std::uint64_t seed,
@@ -37,10 +31,7 @@ experiment::RunFunction TraceFile::recording() {
 
 void TraceFile::finish() {
     recorder_.finish();
-    out_.close();
-    if (!out_) throw std::runtime_error(fmt::format("{}: writing failed", name_.string()));
-    std::filesystem::rename(unfinished_, name_);
-    unfinished_.clear();
+    file_.finish();
 }
 
 }  // namespace gene_clocks::app

@@ -1,23 +1,18 @@
 #pragma once
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
+#include "output_file.hpp"
 #include "runner.hpp"
 #include "trace_recorder.hpp"
 
 namespace gene_clocks::app {
 
-/// The trace of one run, in a file that is whole or not there: it is written beside, and renamed
-/// at the end.
+/// The trace of one run, in a file that is whole or not there.
 class TraceFile {
 public:
     /// Throws InputError where the run's robots have no gene clocks, or nothing can be written.
     TraceFile(const std::string& name, const sim::Settings& settings);
-    ~TraceFile();
-    TraceFile(const TraceFile&) = delete;
-    TraceFile& operator=(const TraceFile&) = delete;
 
     /// Makes the run and records it; for one run only. Must not outlive this.
     experiment::RunFunction recording();
@@ -26,9 +21,7 @@ public:
     void finish();
 
 private:
-    std::filesystem::path name_;
-    std::filesystem::path unfinished_;  ///< empty once renamed
-    std::ofstream out_;
+    OutputFile file_;
     trace::TraceRecorder recorder_;
 };
 

@@ -14,6 +14,21 @@ std::string_view name(Violation violation) {
     return names[static_cast<std::size_t>(violation)];
 }
 
+std::string_view meaning(Violation violation) {
+    static constexpr std::array<std::string_view, 10> meanings{
+        "a gene took a counter that is not its robot's next",
+        "counters beyond the maximum were taken",
+        "the stamp is not the sender's next counter",
+        "a message left while the counter was ahead of storage",
+        "a message holds a gene that is not below its stamp",
+        "a message was received that had not been sent",
+        "a stamp beyond the maximum or the admission window was accepted",
+        "after reception the clock is not the larger of its own and the stamp",
+        "storage went back, or beyond the maximum",
+        "after a crash the clock did not go on from what was stored"};
+    return meanings[static_cast<std::size_t>(violation)];
+}
+
 // A trace does not show how far ahead a robot reserves. With a block of 0 the clock asks for just
 // what safety needs: that the next counter be stored before a message leaves.
 TraceChecker::TraceChecker(FleetLimits limits)
@@ -40,8 +55,10 @@ std::optional<Violation> TraceChecker::check(Seat& seat, const Sends& entry) {
 
 std::optional<Violation> TraceChecker::check(Seat& seat, const Receives& entry) {
     if (entry.message >= stamps_.size()) return Violation::no_such_message;
-    if (!seat.clock.observe(stamps_[entry.message])) return Violation::not_admitted;
-    if (entry.next != seat.clock.stamp()) return Violation::wrong_maximum;
+    GeneClock after = seat.clock;
+    if (!after.observe(stamps_[entry.message])) return Violation::not_admitted;
+    if (entry.next != after.stamp()) return Violation::wrong_maximum;
+    seat.clock = after;
     return std::nullopt;
 }
 
@@ -58,6 +75,11 @@ std::optional<Violation> TraceChecker::check(Seat& seat, const Restarts& entry) 
     // What was stored lies between the first counter and the maximum, so there is a clock.
     seat.clock = GeneClock::restart(entry.robot, seat.stored, limits_).value();
     return std::nullopt;
+}
+
+TraceChecker::Standing TraceChecker::standing(RobotId robot) {
+    const Seat& seat = seat_of(robot);
+    return {seat.clock.stamp(), seat.stored};
 }
 
 TraceChecker::Seat& TraceChecker::seat_of(RobotId robot) {

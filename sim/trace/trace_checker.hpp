@@ -27,6 +27,8 @@ enum class Violation : std::uint8_t {
 
 /// The rule's name in verdicts, such as "wrong-stamp".
 std::string_view name(Violation violation);
+/// The rule in words: what went wrong.
+std::string_view meaning(Violation violation);
 
 /// Replays entries through the shipped clock, one for each robot.
 ///
@@ -38,9 +40,17 @@ public:
     /// Precondition: limits.genesis_count < limits.maximum.
     explicit TraceChecker(FleetLimits limits);
 
-    /// The rule that `entry` breaks after those before it; nullopt where it breaks none.
-    /// After a violation the checker must not be used any more. Precondition: the robot is not 0.
+    /// The rule that `entry` breaks after those before it, and then changes nothing; nullopt where
+    /// it breaks none. Precondition: the robot is not 0.
     std::optional<Violation> check(const Entry& entry);
+
+    /// Where a robot stands after the entries so far.
+    struct Standing {
+        Stamp next;              ///< its next counter
+        std::uint64_t stored{};  ///< on stable storage, as the trace says
+    };
+    Standing standing(RobotId robot);
+    std::uint64_t messages() const { return stamps_.size(); }  ///< sent so far
 
 private:
     struct Seat {

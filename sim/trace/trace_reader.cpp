@@ -6,18 +6,32 @@
 #include <charconv>
 #include <concepts>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
+#include <variant>
 
 namespace gene_clocks::trace {
 namespace {
 
+/// No well-formed line is as long, so that a file without ends of lines does not fill memory.
+constexpr std::size_t line_capacity = 128;
+
+constexpr const char* not_a_trace = "not a trace of version 1 (is it compressed?)";
+
 struct Malformed : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
+
+/// A word for a message, whatever bytes it holds.
+std::string quoted(std::string_view word) {
+    std::string text = "'";
+    for (const char c : word) text += c < ' ' || c > '~' ? '?' : c;
+    return text + "'";
+}
 
 /// The words of a line, which one space parts. No line has more than five.
 class Words {
@@ -42,7 +56,7 @@ public:
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
         const bool padded = word.size() > 1 && word.front() == '0';
         if (error != std::errc{} || end != word.data() + word.size() || padded) {
-            throw Malformed(fmt::format("not a number in range: '{}'", word));
+            throw Malformed("not a number in range: " + quoted(word));
         }
         return value;
     }
@@ -68,7 +82,7 @@ Entry parse_entry(const Words& words) {
         if (kind == "w") return Stores{words.robot(), words.number(2)};
         if (kind == "c") return Restarts{words.robot(), {words.number(2)}};
     }
-    throw Malformed(fmt::format("no such entry: '{}' with {} words", kind, words.size()));
+    throw Malformed(fmt::format("there is no entry {} of {} words", quoted(kind), words.size()));
 }
 
 FleetLimits parse_limits(const Words& words) {
@@ -80,15 +94,20 @@ FleetLimits parse_limits(const Words& words) {
     return limits;
 }
 
+RobotId robot_of(const Entry& entry) {
+    return std::visit([](const auto& kind) { return kind.robot; }, entry);
+}
+
 /// A trace from its first line to its last.
 class Reading {
 public:
+    /// The rule that the line breaks, if any.
     std::optional<Violation> read(std::string_view line) {
         const Words words(line);
         switch (expected_) {
             case Expected::header:
                 if (words[0] != "gene-clocks-trace" || words.size() != 2 || words[1] != "1") {
-                    throw Malformed("not a trace of version 1");
+                    throw Malformed(not_a_trace);
                 }
                 expected_ = Expected::limits;
                 return std::nullopt;
@@ -105,11 +124,21 @@ public:
                     return std::nullopt;
                 }
                 ++entries_;
-                return checker_->check(parse_entry(words));
+                last_ = parse_entry(words);
+                return checker_->check(last_);
             case Expected::nothing:
                 break;
         }
         throw Malformed("something after the end");
+    }
+
+    /// Why the last line breaks that rule.
+    std::string explain(Violation violation) {
+        const RobotId robot = robot_of(last_);
+        const TraceChecker::Standing standing = checker_->standing(robot);
+        return fmt::format("{} (robot {}: next counter {}, stored {}; messages sent: {})",
+                           meaning(violation), static_cast<std::uint32_t>(robot),
+                           standing.next.value, standing.stored, checker_->messages());
     }
 
     bool ended() const { return expected_ == Expected::nothing; }
@@ -120,8 +149,23 @@ private:
 
     Expected expected_ = Expected::header;
     std::optional<TraceChecker> checker_;  ///< once the limits are known
+    Entry last_;
     std::uint64_t entries_ = 0;
 };
+
+/// Reads a line, of which it returns all but its end; nullopt at the stream's end.
+std::optional<std::string_view> next_line(std::istream& in,
+                                          std::array<char, line_capacity>& buffer) {
+    in.getline(buffer.data(), std::ssize(buffer));
+    if (in.bad()) throw std::runtime_error("reading failed");
+    const auto length = static_cast<std::size_t>(in.gcount());
+    if (in.eof()) {
+        if (length == 0) return std::nullopt;
+        throw Malformed("cut short: the line has no end");
+    }
+    if (in.fail()) throw Malformed("too long a line");
+    return std::string_view{buffer.data(), length - 1};
+}
 
 }  // namespace
 
@@ -140,21 +184,22 @@ std::string Verdict::text() const {
 Verdict check_trace(std::istream& in) {
     Reading reading;
     Verdict verdict;
-    std::string line;
+    std::array<char, line_capacity> buffer{};
     try {
-        for (verdict.line = 1; std::getline(in, line); ++verdict.line) {
-            if (const auto violation = reading.read(line)) {
+        for (verdict.line = 1; const auto line = next_line(in, buffer); ++verdict.line) {
+            if (const auto violation = reading.read(*line)) {
                 verdict.outcome = Verdict::Outcome::violated;
                 verdict.violation = *violation;
+                verdict.entry = *line;
+                verdict.reason = reading.explain(*violation);
                 return verdict;
             }
         }
-        if (in.bad()) throw std::runtime_error("the trace cannot be read");
         if (!reading.ended()) throw Malformed("cut short: there is no end");
         verdict.entries = reading.entries();
     } catch (const Malformed& fault) {
         verdict.outcome = Verdict::Outcome::malformed;
-        verdict.reason = fault.what();
+        verdict.reason = verdict.line == 1 ? not_a_trace : fault.what();
     }
     return verdict;
 }

@@ -16,7 +16,8 @@ struct Verdict {
     std::uint64_t entries{};  ///< of an accepted trace
     std::uint64_t line{};     ///< the first that breaks a rule or is malformed, from 1
     Violation violation{};    ///< where outcome is violated
-    std::string reason;       ///< what is wrong with a malformed line, in words
+    std::string entry;        ///< the line itself, where outcome is violated
+    std::string reason;       ///< what is wrong with the line, in words; empty where accepted
 
     /// The one line of output that docs/trace-format.md prescribes, without its end.
     std::string text() const;

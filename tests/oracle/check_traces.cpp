@@ -1,5 +1,5 @@
-// The shipped trace checker behind the oracle's interface (proofs/oracle/trace.ml): checks each
-// file given, or standard input.
+// The shipped trace checker behind the oracle's interface (proofs/oracle/trace_main.ml): checks
+// each file given, or standard input.
 
 #include <fmt/core.h>
 

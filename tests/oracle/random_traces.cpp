@@ -135,6 +135,7 @@ void damage_line(std::string& line, Random& random) {
 }
 
 std::string damaged(const std::string& text, Random& random) {
+    if (random.chance(5)) return text.substr(0, random.below(text.size()));
     auto lines = lines_of(text);
     const std::size_t which = random.below(lines.size());
     const auto place = lines.begin() + static_cast<std::ptrdiff_t>(which);

@@ -45,7 +45,7 @@ TEST_F(BadInputTest, CommandsAndOptions) {
                    "--taks: there is no such option; did you mean --task?");
     expect_refusal({"run", "--task", "navigation", "--sede", "3"},
                    "--sede: there is no such option; did you mean --seed?");
-    expect_refusal({"run", "--task", "navigation", "surplus"}, "surplus: there is no such command");
+    expect_refusal({"run", "--task", "navigation", "surplus"}, "surplus: one argument too many");
     expect_refusal({"study"}, "STUDY is required");
     expect_refusal({"study", "gecco15", "--threads", "0"}, "--threads");
     expect_refusal({"study", "gecco15", "--seeds", "-1"}, "--seeds");

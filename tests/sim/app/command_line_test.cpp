@@ -31,7 +31,8 @@ protected:
 
 TEST_F(CommandLineTest, HelpIsThereForEveryCommand) {
     EXPECT_THAT(output_of({"--help"}), HasSubstr("gene-clocks run --task navigation"));
-    for (const char* command : {"run", "study", "report", "reproduce", "settings", "export"}) {
+    for (const char* command :
+         {"run", "study", "report", "reproduce", "settings", "export", "check-trace"}) {
         EXPECT_THAT(output_of({command, "--help"}),
                     HasSubstr(std::string("gene-clocks ") + command))
             << command;

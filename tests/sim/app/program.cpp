@@ -55,8 +55,7 @@ void Program::signal(int number) const {
     kill(process_, number);
 }
 
-bool Program::wait_for_message(const std::string& text) {
-    const auto seen = [&] { return read_all(messages_).find(text) != std::string::npos; };
+bool Program::wait_until(const std::function<bool()>& seen) const {
     siginfo_t info{};
     while (!seen()) {
         // Ended, but not yet collected: one last look.
@@ -65,6 +64,10 @@ bool Program::wait_for_message(const std::string& text) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return true;
+}
+
+bool Program::wait_for_message(const std::string& text) const {
+    return wait_until([&] { return read_all(messages_).find(text) != std::string::npos; });
 }
 
 Program::Result Program::wait() {

@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,10 @@ public:
     /// Sends it a signal.
     void signal(int number) const;
 
-    /// Waits until its standard error contains a text, and returns whether it ever did.
-    bool wait_for_message(const std::string& text);
+    /// Waits until something is so, or the program has ended; returns whether it was so.
+    bool wait_until(const std::function<bool()>& seen) const;
+    /// Waits likewise until its standard error contains a text.
+    bool wait_for_message(const std::string& text) const;
 
     /// What a program that has ended leaves.
     struct Result {

@@ -2,8 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -16,6 +17,7 @@ namespace {
 using test::Program;
 using testing::HasSubstr;
 using testing::MatchesRegex;
+using testing::StartsWith;
 
 class TraceTest : public testing::Test {
 protected:
@@ -31,9 +33,6 @@ protected:
     [[nodiscard]] std::string recorded() const {
         return test::read_all(folder.path() / "run.trace");
     }
-    void write(const std::string& text) const {
-        std::ofstream(folder.path() / "other.trace", std::ios::binary) << text;
-    }
     test::TemporaryFolder folder;
 };
 
@@ -45,7 +44,7 @@ TEST_F(TraceTest, ARecordedRunIsTheSameAndKeepsTheProtocol) {
 
     const auto verdict = check("run.trace");
     EXPECT_EQ(verdict.status, 0) << verdict.messages;
-    EXPECT_THAT(verdict.output, MatchesRegex("accepted [0-9]+\n"));
+    EXPECT_THAT(verdict.output, MatchesRegex("run.trace: [0-9]+ entries accepted: .*\n"));
 
     // Nothing is left out.
     const std::string trace = recorded();
@@ -76,29 +75,80 @@ TEST_F(TraceTest, AForgedTraceIsFoundOut) {
     const auto made = trace.find("\nm ");
     const auto counter = trace.find(' ', made + 3) + 1;
     // The gene takes a counter from far ahead.
-    write(trace.substr(0, counter) + '1' + trace.substr(counter));
+    folder.write("other.trace", trace.substr(0, counter) + '1' + trace.substr(counter));
     const auto verdict = check("other.trace");
     EXPECT_EQ(verdict.status, 1);
-    EXPECT_THAT(verdict.output, MatchesRegex("line [0-9]+: not-next-counter\n"));
+    const auto line = 2 + std::count(trace.begin(), trace.begin() + static_cast<long>(made), '\n');
+    EXPECT_THAT(verdict.output,
+                StartsWith("other.trace:" + std::to_string(line) +
+                           ": not-next-counter: a gene took a counter that is not its robot's "
+                           "next (robot "));
+    EXPECT_THAT(verdict.output, HasSubstr("\n    m "));
 }
 
-TEST_F(TraceTest, WhatIsWrongWithItsInputIsSaid) {
-    write("gene-clocks-trace 1\n");
-    const auto malformed = check("other.trace");
-    EXPECT_EQ(malformed.status, 2);
-    EXPECT_EQ(malformed.output, "line 2: malformed\n");
-    EXPECT_THAT(malformed.messages, HasSubstr("other.trace: line 2: cut short"));
-    EXPECT_THAT(check("absent.trace").messages, HasSubstr("absent.trace: cannot be read"));
-    EXPECT_EQ(check("absent.trace").status, 2);
+TEST_F(TraceTest, WhatIsNoTraceIsRefused) {
+    ASSERT_EQ(run({"--trace", "run.trace"}).status, 0);
+    const std::string trace = recorded();
+    const auto refused = [&](const std::string& file, const std::string& message) {
+        const auto verdict = check(file);
+        EXPECT_EQ(verdict.status, 2) << file;
+        EXPECT_EQ(verdict.output, "") << file;
+        EXPECT_THAT(verdict.messages, StartsWith("gene-clocks: ")) << file;
+        EXPECT_THAT(verdict.messages, HasSubstr(message)) << file;
+    };
+    refused("absent.trace", "absent.trace: cannot be read");
+    refused(".", ".: is a folder");
+    folder.write("other.trace", "");
+    refused("other.trace", "other.trace:1: not a trace of version 1");
+    folder.write("other.trace", "gene-clocks-trace 2\n");
+    refused("other.trace", "other.trace:1: not a trace of version 1");
+    folder.write("other.trace", std::string("\x1f\x8b\x08\x00\x1b[31m\n", 9));
+    refused("other.trace", "other.trace:1: not a trace of version 1 (is it compressed?)");
+    refused(PROGRAM, ":1: not a trace of version 1");
+    // Wherever a trace is cut, it is no longer one.
+    const std::size_t size = trace.size();
+    for (const std::size_t length : {size / 7, size / 3, size - 30, size - 3, size - 2, size - 1}) {
+        folder.write("other.trace", trace.substr(0, length));
+        refused("other.trace", "cut short");
+    }
+}
 
-    const auto timestamps = run({"--source", "timestamp", "--trace", "run.trace"});
-    EXPECT_EQ(timestamps.status, 2);
-    EXPECT_EQ(timestamps.output, "");
-    EXPECT_THAT(timestamps.messages, HasSubstr("only robots with gene clocks"));
-    const auto unwritable = run({"--trace", "no/such/folder/run.trace"});
-    EXPECT_EQ(unwritable.status, 2);
-    EXPECT_THAT(unwritable.messages, HasSubstr("cannot be written"));
-    EXPECT_FALSE(std::filesystem::exists(folder.path() / "run.trace"));
+TEST_F(TraceTest, NothingIsWrittenWhereNoTraceCanBe) {
+    const auto refused = [&](const Program::Arguments& arguments, const std::string& message) {
+        const auto result = run(arguments);
+        EXPECT_EQ(result.status, 2) << result.messages;
+        EXPECT_EQ(result.output, "");
+        EXPECT_THAT(result.messages, HasSubstr(message));
+    };
+    folder.write("old.trace", "old");
+    refused({"--source", "timestamp", "--trace", "old.trace"}, "only robots with gene clocks");
+    refused({"--trace", "no/such/folder/run.trace"}, "folder/run.trace: cannot be written there");
+    refused({"--trace", "."}, ".: is there already, and is not a plain file");
+    refused({"--trace", ""}, "needs a name");
+    refused({"--trace", "-"}, "needs a file");
+    std::filesystem::create_symlink("old.trace", folder / "link");
+    refused({"--trace", "link"}, "link: is there already");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(test::read_all(folder / "old.trace"), "old");
+    EXPECT_FALSE(std::filesystem::exists(folder / "old.trace.part"));
+}
+
+TEST_F(TraceTest, ARunThatIsCutShortLeavesNoWholeTrace) {
+    for (const int signal : {SIGTERM, SIGKILL}) {
+        Program program(folder.path(), {"run", "--task", "navigation", "--set",
+                                        "run.cycles=1000000", "--trace", "run.trace"});
+        const auto unfinished = folder / "run.trace.part";
+        ASSERT_TRUE(program.wait_until([&] { return !test::read_all(unfinished).empty(); }));
+        program.signal(signal);
+        const auto result = program.wait();
+        EXPECT_EQ(result.status, signal == SIGTERM ? 130 : -SIGKILL);
+        EXPECT_FALSE(std::filesystem::exists(folder / "run.trace"));
+        EXPECT_EQ(std::filesystem::exists(unfinished), signal == SIGKILL);
+    }
+    EXPECT_EQ(check("run.trace.part").status, 2);
+    // What a killed run left is not in the way of the next.
+    EXPECT_EQ(run({"--trace", "run.trace"}).status, 0);
+    EXPECT_EQ(check("run.trace").status, 0);
 }
 
 }  // namespace

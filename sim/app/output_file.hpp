@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+
+namespace gene_clocks::app {
+
+/// A file that is whole or not there: it is written beside its place, under its name with ".part",
+/// and renamed at the end.
+class OutputFile {
+public:
+    /// Throws InputError where nothing can be written, or where something that is no plain file (a
+    /// folder, a device, a link) has that name.
+    explicit OutputFile(std::filesystem::path name);
+    ~OutputFile();  ///< removes what is unfinished
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    std::ostream& stream() { return stream_; }
+
+    /// Puts the file in its place. Throws std::runtime_error where not all of it could be written.
+    void finish();
+
+private:
+    std::filesystem::path name_;
+    std::filesystem::path unfinished_;  ///< empty once renamed
+    std::ofstream stream_;
+};
+
+}  // namespace gene_clocks::app
