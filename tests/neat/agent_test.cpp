@@ -484,6 +484,7 @@ TEST_F(AgentTest, MatesOnlyTwoDifferentGenomes) {
 
     settings_.population = 4;
     int mated = 0;
+    int mixed = 0;
     constexpr int births = 2000;
     for (std::uint32_t i = 0; i < births; ++i) {
         Agent three = make_agent(100 + i);
@@ -494,11 +495,15 @@ TEST_F(AgentTest, MatesOnlyTwoDifferentGenomes) {
         mated += is_mated ? 1 : 0;
         // A child of two genomes of one topology has weights of either.
         if (!is_mated) continue;
+        std::size_t from_active = 0;
         for (std::size_t gene = 0; gene < active->weights.size(); ++gene) {
             const float weight = three.active().weights[gene];
             ASSERT_TRUE(weight == active->weights[gene] || weight == -9.0f);
+            from_active += weight == active->weights[gene] ? 1 : 0;
         }
+        mixed += from_active > 0 && from_active < active->weights.size() ? 1 : 0;
     }
+    EXPECT_GT(mixed, mated / 2) << "a child with genes of one parent only has not two parents";
     // The fittest is drawn with 2/3, the second with 1/3: different in 4 of 9.
     const double expected = 4.0 / 9.0;
     EXPECT_NEAR(mated / double{births}, expected,

@@ -78,6 +78,23 @@ TEST_F(Crossover, MatchingWeightsComeFromEitherParentHalfOfTheTime) {
     EXPECT_NEAR(from_second / (6.0 * children), 0.5, 5 * std::sqrt(0.25 / (6.0 * children)));
 }
 
+TEST_F(Crossover, GenesMatchByTheirMarksNotByTheirPlaces) {
+    add_gene(first_, mark(30), {genesis(5), genesis(5), true}, 3.0f);
+    add_gene(second_, mark(30), {genesis(5), genesis(5), true}, 4.0f, false);
+    add_gene(second_, mark(40), {genesis(4), genesis(5), true}, 5.0f);
+    const std::size_t place = index_of(first_, mark(30));
+    ASSERT_EQ(second_.topology->connection_marks.at(place), mark(40));
+    settings_.disable_probability = 1.0;
+    int from_second = 0;
+    for (int i = 0; i < 100; ++i) {
+        const Genome child = cross(2.0f, 1.0f);
+        ASSERT_TRUE(child.weights[place] == 3.0f || child.weights[place] == 4.0f);
+        ASSERT_FALSE(child.is_enabled(place));
+        from_second += child.weights[place] == 4.0f ? 1 : 0;
+    }
+    EXPECT_GT(from_second, 0);
+}
+
 TEST_F(Crossover, UnmatchedGenesComeFromTheFitterAsTheyAre) {
     first_.enabled[index_of(first_, mark(21))] = 0.0f;
     for (int i = 0; i < 100; ++i) {

@@ -55,7 +55,10 @@ TEST(InitialTopology, TheSmallestHasABiasAndAnOutput) {
 }
 
 TEST(Topology, FindsNeuronsByMark) {
-    const Genome genome = with_hidden(perceptron(2, 1), 1);
+    Genome genome = with_hidden(perceptron(2, 1), 1);
+    add_hidden(genome, mark(2000, 3));
+    EXPECT_EQ(genome.topology->find_neuron(mark(2000, 3)), 4u);
+    EXPECT_EQ(genome.topology->find_neuron(mark(2000, 2)), std::nullopt) << "of another robot";
     EXPECT_EQ(genome.topology->find_neuron(genesis(1)), 0u);
     EXPECT_EQ(genome.topology->find_neuron(genesis(3)), 2u);
     EXPECT_EQ(genome.topology->find_neuron(genesis(1000)), 3u);
@@ -171,6 +174,21 @@ TEST_F(GenomeFault, MoreMarksThanWeights) {
 
 TEST_F(GenomeFault, MoreMarksThanEnabledFlags) {
     genome_.enabled.pop_back();
+    EXPECT_EQ(fault(), "the gene arrays differ in length");
+}
+
+TEST_F(GenomeFault, FewerMarksThanEnds) {
+    topology_.connection_ends.push_back(topology_.connection_ends.back());
+    EXPECT_EQ(fault(), "the gene arrays differ in length");
+}
+
+TEST_F(GenomeFault, FewerMarksThanWeights) {
+    genome_.weights.push_back(0.0f);
+    EXPECT_EQ(fault(), "the gene arrays differ in length");
+}
+
+TEST_F(GenomeFault, FewerMarksThanEnabledFlags) {
+    genome_.enabled.push_back(1.0f);
     EXPECT_EQ(fault(), "the gene arrays differ in length");
 }
 

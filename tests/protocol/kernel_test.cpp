@@ -38,6 +38,8 @@ GENE_CLOCKS_PROPERTY(KernelProperty, CAndCppClocksStartAlike, ()) {
     if (genesis_count < maximum) {
         const GeneClock cpp{RobotId{1}, genesis_count, {.maximum = maximum}};
         RC_ASSERT(cpp.state() == (GeneClock::State{clock.next, clock.durable}));
+    } else {
+        RC_ASSERT(clock.next == 0u && clock.durable == 0u);
     }
 }
 
@@ -52,11 +54,12 @@ GENE_CLOCKS_PROPERTY(KernelProperty, CAndCppClocksGoOnAlike, ()) {
 
     for (int i = 0; i < 4; ++i) {
         const auto count = *counter;
-        std::uint64_t first = 0;
+        constexpr std::uint64_t untouched = 0;  // no counter is 0
+        std::uint64_t first = untouched;
         const bool minted = c_mint(&c, count, &first) != 0;
         const auto marks = cpp->mint(count);
         RC_ASSERT(minted == marks.has_value());
-        if (minted) RC_ASSERT(first == marks->first.counter);
+        RC_ASSERT(first == (minted ? marks->first.counter : untouched));
 
         const auto stamp = *counter;
         RC_ASSERT((c_observe(&c, stamp) != 0) == cpp->observe(Stamp{stamp}));
