@@ -1,0 +1,61 @@
+"""Which tests are tried on a fault, in which order: those that most likely notice it come first."""
+
+from workshop import Step
+
+
+def programs(link, folder, *names):
+    return Step(link, tuple(f"tests/{folder}/{name}_test" for name in names))
+
+
+PROTOCOL = programs("unit", "protocol", "innovation_number", "align", "gene_clock", "kernel")
+NEAT = programs("unit", "neat", "agent", "crossover", "distance", "gene_clock_source", "genome",
+                "mutation", "population", "random", "tabu_list", "timestamp_source")
+TRACE = programs("unit", "sim/trace", "trace")
+MUST_NOT_COMPILE = Step("must not compile", (), r"^protocol\.must_not_compile\.")
+PAPER = programs("paper", "paper", "section_2_related_work", "section_3_1_marking",
+                 "section_3_2_algorithm", "section_3_2_variation")
+EXPERIMENTS = programs("paper", "paper", "section_4_experiments")
+SWARMS = programs("property", "protocol", "swarm_property")
+OPERATORS = programs("property", "neat", "operators_property", "swarm_property")
+EXPLORER = programs("explorer", "model", "model")
+ORACLE = Step("oracle", ("oracle", "oracle_schedule", "oracle_replay", "oracle_random_traces",
+                         "oracle_check_traces"), r"^oracle\.(counters_of_.*|traces)$")
+FUZZ = Step("fuzz", ("align_fuzz_replay", "canary_fuzz_replay", "clock_schedule_fuzz_replay",
+                     "genome_operators_fuzz_replay", "oracle_fuzz_replay", "trace_fuzz_replay"),
+            r"^fuzz\.(align|canary|clock_schedule|genome_operators|oracle|trace)$")
+
+# By the folder that the fault is in; the first that fits.
+AREAS = {
+    "protocol/": [MUST_NOT_COMPILE, PROTOCOL, SWARMS, EXPLORER, ORACLE, FUZZ, PAPER, NEAT, OPERATORS,
+                  TRACE],
+    "neat/": [NEAT, OPERATORS, PAPER, FUZZ],
+    "sim/trace/": [TRACE, ORACLE, FUZZ],
+    "sim/": [EXPERIMENTS],
+    "fuzz/": [FUZZ],
+    "tests/model/": [EXPLORER],
+    "tests/support/": [SWARMS],
+    "tests/neat/": [OPERATORS],
+}
+EVERY_STEP = list(dict.fromkeys(step for steps in AREAS.values() for step in steps))
+
+# Where the test is not called as the file: by the beginning of the fault's name.
+LIKELY = {
+    "kernel.h/align": "tests/protocol/align_test",
+    "kernel.h/equal": "tests/protocol/align_test",
+    "kernel.h/less": "tests/protocol/innovation_number_test",
+    "kernel.h/": "tests/protocol/gene_clock_test",
+    "marks.hpp/": "tests/protocol/align_test",
+}
+
+
+def steps_for(fault):
+    """First the one program that most likely notices the fault, then whatever else could."""
+    steps = next(steps for folder, steps in AREAS.items() if fault.file.startswith(folder))
+    file = fault.name.split("/")[0]
+    mirror = f"/{file.split('.')[0]}_test"  # tests/ mirrors the sources
+    likely = next((test for name, test in LIKELY.items() if fault.name.startswith(name)), None)
+    for step in steps:
+        for target in step.targets:
+            if len(step.targets) > 1 and (target == likely or target.endswith(mirror)):
+                return [Step(step.link, (target,)), *steps]
+    return steps
