@@ -5,7 +5,7 @@
     hypothesis and each rule of the protocol a counterexample without it. *)
 From Coq Require Import NArith QArith List Sorting.Sorted.
 From GeneClocks Require Import Mark Alignment Clock Protocol Genome Recording.
-From GeneClocks Require Trace.
+From GeneClocks Require Trace Admission.
 Import ListNotations.
 Open Scope N_scope.
 
@@ -177,6 +177,22 @@ Definition own_mark_in_past : Prop :=
   forall l commands gene, valid l -> honest commands -> let w := after_all l commands in
     (exists r, In gene (known (robots w r))) \/ (exists m, In m (network w) /\ In gene (genes m)) ->
     ~ is_genesis l gene -> counter gene < next (memory (robots w (maker gene))).
+
+(** ** The admission gate: whatever is heard, forged or not *)
+
+(** However many messages there are, they advance the clock by no more than time has earned. *)
+Definition allowance_bounds_clock : Prop :=
+  forall l p c events, let g := Admission.live l p c events in
+    next (Admission.clock_of g)
+    <= next c + Admission.own_genes events + Admission.earned p events.
+
+(** And a stamp that lies below what time has earned is never refused for it, whatever else was heard
+    before: nobody is shut out for good. *)
+Definition allowance_admits_below : Prop :=
+  forall l p c events stamp, Admission.earned p events <= Admission.ceiling p ->
+    stamp <= next c + Admission.earned p events ->
+    let g := Admission.live l p c events in
+    observe l (Admission.clock_of g) stamp <> None -> Admission.accept l g stamp <> None.
 
 (** ** Genomes under odNEAT's operators *)
 

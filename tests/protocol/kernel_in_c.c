@@ -72,6 +72,25 @@ int c_covers(uint64_t stamp, const struct c_mark* genome, size_t size) {
     return result;
 }
 
+size_t c_find_unmade(uint64_t next, uint32_t robot, const struct c_mark* genome, size_t size) {
+    struct gene_clocks_mark* marks = marks_of(genome, size);
+    const size_t result = gene_clocks_find_unmade(next, robot, marks, size);
+    free(marks);
+    return result;
+}
+
+void c_earn(uint64_t* allowance, uint64_t counters, uint64_t ceiling) {
+    gene_clocks_earn(allowance, counters, ceiling);
+}
+
+int c_admit(struct c_clock* clock, uint64_t* allowance, uint64_t stamp) {
+    const struct gene_clocks_limits limits = limits_of(clock);
+    struct gene_clocks_state state = state_of(clock);
+    const enum gene_clocks_admission result = gene_clocks_admit(&state, &limits, allowance, stamp);
+    keep(clock, state, true);
+    return (int)result;
+}
+
 struct recorder {
     struct c_visit* visits;
     size_t size;

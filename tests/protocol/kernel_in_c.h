@@ -27,6 +27,9 @@ int c_restore(struct c_clock* clock, uint64_t next, uint64_t durable);
 int c_mint(struct c_clock* clock, uint64_t count, uint64_t* first);
 int c_observe(struct c_clock* clock, uint64_t stamp);
 int c_covers(uint64_t stamp, const struct c_mark* genome, size_t size);
+size_t c_find_unmade(uint64_t next, uint32_t robot, const struct c_mark* genome, size_t size);
+void c_earn(uint64_t* allowance, uint64_t counters, uint64_t ceiling);
+int c_admit(struct c_clock* clock, uint64_t* allowance, uint64_t stamp);
 /* Writes what is visited to `visits`, which has room for all; returns how many. */
 size_t c_align(const struct c_mark* first, size_t first_size, const struct c_mark* second,
                size_t second_size, struct c_visit* visits);

@@ -2,6 +2,7 @@
 // agree, function by function.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -74,6 +75,37 @@ GENE_CLOCKS_PROPERTY(KernelProperty, CAndCppAdmitGenomesAlike,
     const auto marks = in_c(genome);
     RC_ASSERT((c_covers(stamp, marks.data(), marks.size()) != 0) ==
               clock.observe(Stamp{stamp}, genome));
+}
+
+GENE_CLOCKS_PROPERTY(KernelProperty, CAndCppGuardAlike,
+                     (const std::vector<InnovationNumber>& genome)) {
+    const auto counter = test::counters<std::uint64_t>();
+    const auto next = *counter;
+    c_clock c{*counter, *counter, *counter, 0, 0};
+    auto cpp = GeneClock::from_state(RobotId{2}, {next, next}, {c.maximum, c.block, c.window});
+    RC_PRE(cpp && c_restore(&c, next, next) != 0);
+
+    const auto marks = in_c(genome);
+    const auto robot = static_cast<std::uint32_t>(genome.empty() ? RobotId{2} : genome[0].robot);
+    const auto unmade = c_find_unmade(next, robot, marks.data(), marks.size());
+    const auto is_unmade = [&](InnovationNumber mark) {
+        return mark.robot == RobotId{robot} && mark.counter >= next;
+    };
+    const auto found = std::ranges::find_if(genome, is_unmade);
+    RC_ASSERT(unmade == static_cast<std::size_t>(found - genome.begin()));
+
+    std::uint64_t in_c = 0;
+    std::uint64_t in_cpp = 0;
+    for (int i = 0; i < 4; ++i) {
+        const auto earned = *counter;
+        c_earn(&in_c, earned, c.maximum);
+        kernel::gene_clocks_earn(&in_cpp, earned, c.maximum);
+        const auto stamp = *counter;
+        RC_ASSERT(c_admit(&c, &in_c, stamp) ==
+                  static_cast<int>(cpp->observe_within(in_cpp, Stamp{stamp})));
+        RC_ASSERT(in_c == in_cpp);
+        RC_ASSERT(cpp->state() == (GeneClock::State{c.next, c.durable}));
+    }
 }
 
 GENE_CLOCKS_PROPERTY(KernelProperty, CAndCppAlignAlike, ()) {

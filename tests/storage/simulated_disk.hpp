@@ -211,7 +211,9 @@ public:
         size = std::min(bytes.size(), contents.size());
         std::ranges::copy(std::as_bytes(std::span{contents}).first(size), bytes.begin());
         if (life_->slip == Slip::checksum_ignored && size == counter_record_size) {
-            gene_clocks::detail::put_little_endian(bytes.data() + 20, crc32(bytes.first(20)));
+            gene_clocks::detail::put_little_endian(
+                bytes.data() + 20,
+                gene_clocks::detail::record_checksum(bytes.first<counter_record_size>()));
         }
         return 0;
     }

@@ -73,7 +73,9 @@ public:
         const bool is_erased =
             std::ranges::all_of(bytes, [](std::byte byte) { return byte == std::byte{0xff}; });
         if (life_->slip == Slip::checksum_ignored && !is_erased) {
-            gene_clocks::detail::put_little_endian(bytes.data() + 20, crc32(bytes.first(20)));
+            gene_clocks::detail::put_little_endian(
+                bytes.data() + 20,
+                gene_clocks::detail::record_checksum(bytes.first<counter_record_size>()));
         }
         return true;
     }

@@ -1,9 +1,9 @@
 (** For each claim an instance in which its hypotheses hold and its conclusion says something. *)
 From Coq Require Import NArith QArith List Sorting.Sorted.
 From GeneClocks Require Import Mark Alignment Clock Protocol Genome Recording.
-From GeneClocks Require Claims Trace.
+From GeneClocks Require Claims Trace Admission.
 From GeneClocks.proofs Require Import Order Merge Arithmetic Invariant Safety Durability Bounds
-  Provenance Chain Crossover NoFalseAlarms TraceSafety.
+  Provenance Allowance Chain Crossover NoFalseAlarms TraceSafety.
 Import ListNotations.
 Open Scope N_scope.
 
@@ -232,6 +232,30 @@ Example own_mark_in_past_witness :
   In (Mark 5 3) (known (robots (after_all small honest_story) 7))
   /\ next (memory (robots (after_all small honest_story) 3)) = 8.
 Proof. split; [in_list | reflexivity]. Qed.
+
+(** ** The admission gate *)
+
+Definition paced := Admission.Policy 2 3 100.  (* initial, per cycle, ceiling *)
+Definition young := Clock 2 2.
+
+(** The bound is met: strangers take all that is earned as soon as it is, and no more. *)
+Definition besieged : list Admission.event :=
+  [Admission.Hears 5; Admission.Hears 4; Admission.Elapses; Admission.Hears 9; Admission.Hears 7;
+   Admission.Makes 1; Admission.Hears 9].
+Example allowance_bounds_clock_witness :
+  next (Admission.clock_of (Admission.live small paced young besieged)) = 8
+  /\ next young + Admission.own_genes besieged + Admission.earned paced besieged = 8.
+Proof. vm_compute. split; reflexivity. Qed.
+
+(** What was too early is heard after two quiet cycles, and nothing above the line is. *)
+Definition quiet : list Admission.event := [Admission.Hears 4; Admission.Elapses; Admission.Elapses].
+Example allowance_admits_below_witness :
+  Admission.accept small (Admission.live small paced young [Admission.Hears 4]) 10 = None
+  /\ next young + Admission.earned paced quiet = 10
+  /\ Admission.accept small (Admission.live small paced young quiet) 10
+     = Some (Admission.Guarded (Clock 10 13) 0)
+  /\ Admission.accept small (Admission.live small paced young quiet) 11 = None.
+Proof. vm_compute. repeat split. Qed.
 
 (** ** Genomes *)
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
@@ -24,6 +25,21 @@ struct BasicMintedRange {
         return {static_cast<Counter>(first.counter + index), first.robot};
     }
 };
+
+/// What becomes of a received message. Everything but `admitted` is a refusal: nothing changes, and
+/// the message must be dropped whole.
+enum class Admission : std::uint8_t {
+    admitted = kernel::gene_clocks_admitted,
+    beyond_maximum = kernel::gene_clocks_beyond_maximum,      ///< exceeds Limits::maximum
+    beyond_window = kernel::gene_clocks_beyond_window,        ///< leaps further than Limits::window
+    beyond_allowance = kernel::gene_clocks_beyond_allowance,  ///< leaps further than earned by now
+    gene_not_covered = kernel::gene_clocks_gene_not_covered,  ///< a gene not below the stamp
+    /// A gene bears this robot's id, but this robot never made it: another robot has the same id,
+    /// or this one's storage was set back, or the message is forged. Not to be overlooked: in the
+    /// first two cases marks are no longer unique until this robot goes on under a new id.
+    identity_conflict = kernel::gene_clocks_identity_conflict,
+};
+inline constexpr std::size_t admission_kinds = 6;
 
 /// A robot's logical clock for genes (paper, section 3.1).
 ///
@@ -120,6 +136,13 @@ public:
                                          Projection projection = {}) {
         detail::Marks<Genes, Projection> marks{genes, projection};
         return kernel::gene_clocks_covers(stamp.value, marks, marks.size()) && observe(stamp);
+    }
+
+    /// The same, paid for out of an allowance of counters, which only shrinks here and only where
+    /// the message is admitted. AdmissionGate keeps one.
+    [[nodiscard]] constexpr Admission observe_within(Counter& allowance, StampType stamp) {
+        return static_cast<Admission>(
+            kernel::gene_clocks_admit(&state_, &limits_, &allowance, stamp.value));
     }
 
     /// What to send with every message. Every mark this robot knows lies below it.

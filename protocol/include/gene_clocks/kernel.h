@@ -70,6 +70,16 @@ enum gene_clocks_match {
     gene_clocks_excess_second    /* only in the second, beyond the first's last mark */
 };
 
+/* What becomes of a received message. All but the first are refusals, and change nothing. */
+enum gene_clocks_admission {
+    gene_clocks_admitted,
+    gene_clocks_beyond_maximum,   /* the stamp exceeds what all robots agreed on */
+    gene_clocks_beyond_window,    /* the stamp leaps further than one message may */
+    gene_clocks_beyond_allowance, /* the stamp leaps further than has been earned by now */
+    gene_clocks_gene_not_covered, /* a gene does not lie below the stamp: forged or damaged */
+    gene_clocks_identity_conflict /* a gene bears this robot's id, but this robot never made it */
+};
+
 #ifndef __cplusplus
 /* What gene_clocks_align() calls for every gene, with the context that the caller gave. It must
  * leave both genomes alone. In C++ it is anything that can be called with the other three. */
@@ -93,6 +103,9 @@ struct gene_clocks_visitor {
 
     logic integer reserved(integer next, integer durable, struct gene_clocks_limits* limits) =
       next <= durable ? durable : \min(next + limits->block, limits->maximum);
+
+    predicate unmade(struct gene_clocks_mark mark, integer next, integer robot) =
+      mark.robot == robot && mark.counter >= next;
 
     predicate readable(struct gene_clocks_mark* genome, integer size) =
       \valid_read(genome + (0 .. size - 1));
@@ -297,6 +310,86 @@ GENE_CLOCKS_FUNCTION bool gene_clocks_covers(gene_clocks_counter stamp, GENE_CLO
         if (genome[index].counter >= stamp) return false;
     }
     return true;
+}
+
+/* The index of the first gene that bears this robot's id with a counter that the robot has not used
+ * yet, or `size`. Such a gene proves that another robot has the same id, that this one's storage
+ * was set back, or that the message is forged. To be asked before gene_clocks_observe, which would
+ * hide the difference. */
+/*@ // Coq: Claims.own_mark_in_past
+    requires readable(genome, size);
+    assigns \nothing;
+    ensures 0 <= \result <= size;
+    ensures \forall integer k; 0 <= k < \result ==> !unmade(genome[k], next, robot);
+    ensures \result < size ==> unmade(genome[\result], next, robot); */
+GENE_CLOCKS_FUNCTION size_t gene_clocks_find_unmade(gene_clocks_counter next, uint32_t robot,
+                                                    GENE_CLOCKS_MARKS genome, size_t size) {
+    /*@ loop invariant 0 <= index <= size;
+        loop invariant \forall integer k; 0 <= k < index ==> !unmade(genome[k], next, robot);
+        loop assigns index;
+        loop variant size - index; */
+    for (size_t index = 0; index < size; ++index) {
+        if (genome[index].robot == robot && genome[index].counter >= next) return index;
+    }
+    return size;
+}
+
+/* ---- Allowance ------------------------------------------------------------------------------ */
+
+/* An allowance is the number of counters that receptions may still add to a clock. It grows with
+ * time, by what the whole fleet may use up meanwhile, and never beyond `ceiling`. */
+/*@ // Coq: Admission.earn
+    requires \valid(allowance) && *allowance <= ceiling;
+    assigns *allowance;
+    ensures *allowance == \min(\old(*allowance) + counters, ceiling); */
+GENE_CLOCKS_FUNCTION void gene_clocks_earn(gene_clocks_counter* allowance,
+                                           gene_clocks_counter counters,
+                                           gene_clocks_counter ceiling) {
+    *allowance = counters < (gene_clocks_counter)(ceiling - *allowance)
+                     ? (gene_clocks_counter)(*allowance + counters)
+                     : ceiling;
+}
+
+/* Reception of a stamp, as gene_clocks_observe, that is also paid for out of the allowance. The sum
+ * of clock and allowance stays as it is. */
+/*@ // Coq: Admission.accept
+    requires usable(state, limits) && \valid(allowance);
+    requires \separated(allowance, state, limits);
+    assigns *state, *allowance;
+    ensures usable(state, limits);
+    behavior above_all:
+      assumes stamp > limits->maximum;
+      assigns \nothing;
+      ensures \result == gene_clocks_beyond_maximum;
+    behavior too_far:
+      assumes stamp <= limits->maximum && stamp > state->next + limits->window;
+      assigns \nothing;
+      ensures \result == gene_clocks_beyond_window;
+    behavior too_early:
+      assumes stamp <= limits->maximum && stamp <= state->next + limits->window;
+      assumes stamp > state->next + *allowance;
+      assigns \nothing;
+      ensures \result == gene_clocks_beyond_allowance;
+    behavior admitted:
+      assumes stamp <= limits->maximum && stamp <= state->next + limits->window;
+      assumes stamp <= state->next + *allowance;
+      ensures \result == gene_clocks_admitted;
+      ensures state->next == \max(\old(state->next), stamp);
+      ensures state->durable == reserved(state->next, \old(state->durable), limits);
+      ensures state->next + *allowance == \old(state->next) + \old(*allowance);
+    complete behaviors;
+    disjoint behaviors; */
+GENE_CLOCKS_FUNCTION enum gene_clocks_admission gene_clocks_admit(
+    GENE_CLOCKS_OF(gene_clocks_state) * state, const GENE_CLOCKS_OF(gene_clocks_limits) * limits,
+    gene_clocks_counter* allowance, gene_clocks_counter stamp) {
+    if (stamp > limits->maximum) return gene_clocks_beyond_maximum;
+    const gene_clocks_counter leap =
+        (gene_clocks_counter)(stamp > state->next ? stamp - state->next : 0);
+    if (leap > limits->window) return gene_clocks_beyond_window;
+    if (leap > *allowance) return gene_clocks_beyond_allowance;
+    *allowance = (gene_clocks_counter)(*allowance - leap);
+    gene_clocks_observe(state, limits, stamp);
+    return gene_clocks_admitted;
 }
 
 /* ---- Alignment ------------------------------------------------------------------------------ */

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "gene_clocks/crc32.hpp"
+#include "gene_clocks/checksum.h"
 #include "gene_clocks/innovation_number.hpp"
 
 namespace gene_clocks {
@@ -52,7 +52,7 @@ concept CounterStorage = requires(Storage& storage, const Storage& opened, std::
 //        4      4  version, 1
 //        8      4  robot id, not 0
 //       12      8  counter, not 0
-//       20      4  CRC-32 of the 20 bytes before it
+//       20      4  CRC-32C of the 20 bytes before it
 //
 // Numbers are little-endian. Every later version keeps these places for mark, version and checksum,
 // so that damage and another version can be told apart.
@@ -88,6 +88,14 @@ constexpr Number take_little_endian(const std::byte* from) {
     return number;
 }
 
+/// Of all bytes of a record before the checksum itself.
+constexpr std::uint32_t record_checksum(std::span<const std::byte, counter_record_size> record) {
+    std::array<std::uint8_t, counter_record_size - 4> bytes{};
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+        bytes[i] = std::to_integer<std::uint8_t>(record[i]);
+    return kernel::gene_clocks_crc32c(bytes.data(), bytes.size());
+}
+
 }  // namespace detail
 
 constexpr CounterRecord write_record(RobotId robot, std::uint64_t counter) {
@@ -96,7 +104,7 @@ constexpr CounterRecord write_record(RobotId robot, std::uint64_t counter) {
     detail::put_little_endian(record.data() + 4, counter_record_version);
     detail::put_little_endian(record.data() + 8, static_cast<std::uint32_t>(robot));
     detail::put_little_endian(record.data() + 12, counter);
-    detail::put_little_endian(record.data() + 20, crc32(std::span{record}.first<20>()));
+    detail::put_little_endian(record.data() + 20, detail::record_checksum(record));
     return record;
 }
 
@@ -104,7 +112,8 @@ constexpr CounterRecord write_record(RobotId robot, std::uint64_t counter) {
 /// what `write_record` wrote for this robot is read as a counter.
 constexpr RecordReading read_record(RobotId robot, std::span<const std::byte> bytes) {
     if (bytes.size() != counter_record_size ||
-        detail::take_little_endian<std::uint32_t>(bytes.data() + 20) != crc32(bytes.first(20)) ||
+        detail::take_little_endian<std::uint32_t>(bytes.data() + 20) !=
+            detail::record_checksum(bytes.first<counter_record_size>()) ||
         !std::ranges::equal(bytes.first(4), detail::record_mark)) {
         return {StorageError::damaged};
     }
