@@ -71,7 +71,7 @@ private:
     }
 
     StorageStatus read() {
-        for (std::size_t copy : {0, 1}) {
+        for (std::size_t copy : {0u, 1u}) {
             // One byte more than a record, so that a longer file is not taken for one.
             std::array<std::byte, counter_record_size + 1> bytes{};
             std::size_t size = 0;
