@@ -77,17 +77,20 @@ TEST_F(TimestampSourceTest, TellsEqualTicksOfTwoRobotsApart) {
 }
 
 TEST_F(TimestampSourceTest, KeepsAboveTheGenesisMarksWhateverTheOffset) {
-    const auto genesis_last = genome_.topology->connection_marks.back();
+    const std::uint64_t genesis_last = genome_.topology->connection_marks.back().counter;
     for (const double offset : {-0x1p31, -0x1p40, -1e300}) {
         TimestampSource source(RobotId{1}, 5, {.offset_cycles = offset});
         const auto first = read(source, 0.0);
-        EXPECT_LT(genesis_last, first) << offset;
+        EXPECT_LT(genesis_last, first.counter) << offset;
         EXPECT_LT(first, read(source, 0.0)) << offset;
     }
 }
 
 TEST_F(TimestampSourceTest, StopsMarkingAtTheEndOfTime) {
-    for (const double offset : {1e300, std::numeric_limits<double>::infinity()}) {
+    constexpr double end_cycles = 0x1p43 - 0x1p31;  // 2^63 ticks, less the epoch
+    EXPECT_EQ(first_mark({.offset_cycles = end_cycles - 1.0}, 0.0),
+              mark((std::uint64_t{1} << 63) - ticks_per_cycle));
+    for (const double offset : {end_cycles, 1e300, std::numeric_limits<double>::infinity()}) {
         TimestampSource source(RobotId{1}, 5, {.offset_cycles = offset});
         EXPECT_FALSE(source.mark_connection(genome_, {}, 0.0).has_value());
         EXPECT_FALSE(source.mark_split(genome_, 0, 0.0).has_value());
