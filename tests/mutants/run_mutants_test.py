@@ -40,7 +40,6 @@ project(Sum CXX)
 enable_testing()
 find_package(GTest REQUIRED)
 add_executable(sum_test sum.cpp sum_test.cpp)
-target_compile_options(sum_test PRIVATE -Wall -Werror)
 target_link_libraries(sum_test PRIVATE GTest::gtest_main)
 add_test(NAME again.sum COMMAND sum_test --gtest_filter=Sum.*)
 """
@@ -187,10 +186,9 @@ class TrialTest(unittest.TestCase):
         self.assertNotIn("comment", text.split("mutants killed")[0].split("not equivalent")[1])
 
     def test_what_an_assertion_refuses_at_compile_time_is_killed_by_the_compiler(self):
-        chosen = [fault("a third", "x / 2", "x / 3"),
-                  fault("unused", "    int total = 0;", "    int total = 0;\\n    int unused = 0;")]
-        for verdict in self.try_all(*chosen):
-            self.assertEqual((verdict.outcome, verdict.link), ("killed", "compiler"))
+        (verdict,) = self.try_all(fault("a third", "x / 2", "x / 3"))
+        self.assertEqual((verdict.outcome, verdict.link), ("killed", "compiler"))
+        self.assertRegex(verdict.by, "^sum.cpp:5:.* static assertion failed$")
 
     def test_what_is_no_program_is_senseless_and_no_success(self):
         chosen = [fault("nonsense", "int total = 0;", "int total = nought;")]

@@ -136,9 +136,9 @@ class Workshop:
             self.write(fault.file, original)
 
     def not_built(self, step, output):
-        """Why a mutant does not build: as one of ours would be refused, or because it is nonsense."""
+        """Why a mutant does not build: an assertion refuses it, or it is nonsense."""
         error = re.search(r"^(?:.*/)?([^/\n]+:\d+):.*error: (.*)$", output, re.MULTILINE)
-        if error and re.search(r"static assertion|\[-Werror=", error[0]):
+        if error and "static assertion" in error[2]:
             return Verdict("killed", "compiler", f"{error[1]} {error[2]}")
         if "Error running test executable" in output:
             return Verdict("killed", step.link, "the program of the tests does not start")
