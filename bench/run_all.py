@@ -70,6 +70,16 @@ def rows(program, measured):
         yield f"| {program.name} | {entry['name']} | {time} | {counters} |"
 
 
+def firmware():
+    """A table of what the protocol takes of a microcontroller, where its compiler is at hand."""
+    script = pathlib.Path(__file__).parent / "firmware" / "firmware_size.py"
+    if not shutil.which("arm-none-eabi-gcc"):
+        return ["Firmware was not measured: there is no arm-none-eabi-gcc."]
+    measured = subprocess.run([sys.executable, "-B", script], capture_output=True, text=True,
+                              check=True).stdout
+    return ["Cortex-M4, arm-none-eabi-gcc -Os:", "", *(f"- {line}" for line in measured.splitlines())]
+
+
 def main():
     if len(sys.argv) < 3:
         sys.exit(__doc__)
@@ -95,6 +105,8 @@ def main():
         "| program | benchmark | CPU time per iteration | counters |",
         "| --- | --- | --- | --- |",
         *table,
+        "",
+        *firmware(),
     ]
     text = "\n".join(lines) + "\n"
     (results / "table.md").write_text(text)

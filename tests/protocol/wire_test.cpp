@@ -5,7 +5,6 @@
 
 #include <array>
 #include <bit>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -16,6 +15,7 @@
 #include "support/marks.hpp"
 #include "support/property.hpp"
 #include "support/wire_messages.hpp"
+#include "support/wire_vectors.hpp"
 #include "wire_in_c.h"
 
 namespace gene_clocks {
@@ -24,69 +24,12 @@ namespace {
 using nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
 using kernel::gene_clocks_gene;
+using test::from_hex;
+using test::message_of;
 using test::WireMessage;
 
-Bytes from_hex(std::string_view text) {
-    Bytes bytes;
-    for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
-        bytes.push_back(
-            static_cast<std::uint8_t>(std::stoul(std::string(text.substr(i, 2)), nullptr, 16)));
-    }
-    return bytes;
-}
-
-float float_of(const json& bits) {
-    return std::bit_cast<float>(bits.get<std::uint32_t>());
-}
-
-constexpr std::array<std::string_view, 5> kind_names{"input", "bias", "output", "hidden",
-                                                     "connection"};
-
-WireMessage message_of(const json& value) {
-    WireMessage message;
-    message.sender = RobotId{value["sender"].get<std::uint32_t>()};
-    message.stamp = {value["stamp"].get<std::uint64_t>()};
-    message.energy = float_of(value["energy_bits"]);
-    const json& genome = value["genome"];
-    message.genome.robot = genome["robot"];
-    message.genome.birth = genome["birth"];
-    for (const json& described : genome["genes"]) {
-        gene_clocks_gene gene{};
-        gene.mark = {described["counter"].get<std::uint64_t>(),
-                     described["robot"].get<std::uint32_t>()};
-        const auto kind =
-            std::find(kind_names.begin(), kind_names.end(), described["kind"].get<std::string>());
-        gene.kind = static_cast<kernel::gene_clocks_gene_kind>(kind - kind_names.begin());
-        if (gene.kind == kernel::gene_clocks_connection) {
-            gene.is_enabled = described["enabled"];
-            gene.is_recurrent = described["recurrent"];
-            gene.ends = {described["source"].get<std::uint16_t>(),
-                         described["target"].get<std::uint16_t>()};
-            gene.weight = float_of(described["weight_bits"]);
-            ++message.genome.connections;
-        } else {
-            ++message.genome.neurons;
-        }
-        message.genes.push_back(gene);
-    }
-    return message;
-}
-
-struct Vectors {
-    WireLimits limits;
-    std::vector<json> all;
-};
-
-const Vectors& vectors() {
-    static const Vectors loaded = [] {
-        std::ifstream file(GENE_CLOCKS_WIRE_VECTORS);
-        const json document = json::parse(file);
-        const json& limits = document["limits"];
-        return Vectors{{limits["frame_bytes"], limits["genesis_count"], limits["neurons"],
-                        limits["connections"], float_of(limits["energy_bits"]),
-                        float_of(limits["weight_bits"])},
-                       document["vectors"]};
-    }();
+const test::WireVectors& vectors() {
+    static const test::WireVectors loaded = test::read_wire_vectors(GENE_CLOCKS_WIRE_VECTORS);
     return loaded;
 }
 
