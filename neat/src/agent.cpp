@@ -8,7 +8,7 @@ namespace gene_clocks::neat {
 
 Agent::Agent(RobotId robot, const OdneatSettings& settings,
              std::shared_ptr<const Topology> topology, std::unique_ptr<InnovationSource> source,
-             RandomStream random)
+             RandomStream random, std::uint32_t first_birth)
     : energy_(static_cast<float>(settings.energy_initial)),
       energy_maximum_(static_cast<float>(settings.energy_maximum)),
       maturation_cycles_(settings.maturation_cycles),
@@ -18,6 +18,7 @@ Agent::Agent(RobotId robot, const OdneatSettings& settings,
                          std::vector<float>(topology->connection_marks.size())},
                   settings.activation_slope),
       robot_(robot),
+      births_(first_birth),
       settings_(settings),
       source_(std::move(source)),
       random_(random),
@@ -59,7 +60,9 @@ void Agent::refresh_share() {
 Reception Agent::receive(const Message& message) {
     // The clock advances on every message, whether or not its genome is then accepted; a message
     // whose stamp is refused must leave no trace.
-    if (!source_->observe(message.stamp)) return Reception::refused;
+    const Admission admission = source_->admit(message.stamp, *message.genome);
+    if (admission == Admission::identity_conflict) return Reception::identity_conflict;
+    if (admission != Admission::admitted) return Reception::refused;
     if (!tabu_.approves(*message.genome)) return Reception::tabu;
 
     const auto held = population_.find(message.genome->id);

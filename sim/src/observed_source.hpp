@@ -34,7 +34,11 @@ public:
         return mark;
     }
     Stamp stamp() const override { return source_->stamp(); }
+    std::optional<Stamp> stamp_to_send() override { return source_->stamp_to_send(); }
     bool observe(Stamp stamp) override { return source_->observe(stamp); }
+    Admission admit(Stamp stamp, const neat::Genome& genome) override {
+        return source_->admit(stamp, genome);
+    }
 
 private:
     std::unique_ptr<neat::InnovationSource> source_;

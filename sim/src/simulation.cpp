@@ -258,8 +258,10 @@ void Simulation::exchange_messages() {
 void Simulation::broadcast(std::uint32_t sender) {
     neat::Agent& agent = agents_[sender];
     if (!agent.random().chance(agent.broadcast_probability())) return;
+    const neat::Message* const sent = agent.broadcast();
+    if (sent == nullptr) return;
+    const neat::Message& message = *sent;
     const std::uint64_t number = result_.counters.messages_sent++;
-    const neat::Message& message = agent.message();
     if (observer_ != nullptr) {
         observer_->message_sent(agent.robot(), message.stamp, last_mark(*message.genome));
     }
@@ -280,7 +282,8 @@ void Simulation::receive(std::uint32_t receiver, const neat::Message& message,
     neat::Agent& agent = agents_[receiver];
     const neat::Reception reception = agent.receive(message);
     if (reception == neat::Reception::accepted) ++result_.counters.genomes_accepted;
-    if (observer_ != nullptr && reception != neat::Reception::refused) {
+    if (observer_ != nullptr && reception != neat::Reception::refused &&
+        reception != neat::Reception::identity_conflict) {
         observer_->message_admitted(agent.robot(), number, agent.source().stamp());
     }
 }

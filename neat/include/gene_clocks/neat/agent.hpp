@@ -35,6 +35,9 @@ enum class Reception : std::uint8_t {
     tabu,      ///< it resembles a tabu entry
     unfit,     ///< the population is full of better ones
     refused,   ///< the innovation source refused the stamp; nothing changed
+    /// Refused as well: it shows that this robot's marks are no longer unique, or is forged; see
+    /// Admission::identity_conflict.
+    identity_conflict,
 };
 
 /// How an offspring came about.
@@ -45,24 +48,37 @@ struct Birth {
 
 /// One robot's odNEAT (paper, Algorithm 1), as a state machine without I/O, threads or time.
 ///
-/// The caller runs, once a cycle: `broadcast_probability()` and `message()`, `receive()` for each
+/// The caller runs, once a cycle: `broadcast_probability()` and `broadcast()`, `receive()` for each
 /// message that arrives, `control()`, `spend()`, and `replace()` where `is_depleted()`.
 class Agent {
 public:
-    /// `settings` must outlive the agent; `topology` is the one all robots start from.
+    /// `settings` must outlive the agent; `topology` is the one all robots start from. A robot that
+    /// was restarted gives a `first_birth` beyond all of its earlier lives, since others may still
+    /// hold its old genomes and know them by their GenomeId.
     Agent(RobotId robot, const OdneatSettings& settings, std::shared_ptr<const Topology> topology,
-          std::unique_ptr<InnovationSource> source, RandomStream random);
+          std::unique_ptr<InnovationSource> source, RandomStream random,
+          std::uint32_t first_birth = 0);
 
     /// Probability of a broadcast in this cycle: the fitness share of the active genome's species.
     double broadcast_probability() {
         if (!share_is_current_) refresh_share();
         return share_;
     }
-    /// What a broadcast sends now; valid until the next call.
+    /// What there is to send, to look at; valid until the next call.
     const Message& message() {
         message_.energy = energy_;
         message_.stamp = source_->stamp();
         return message_;
+    }
+
+    /// The message that a broadcast sends now; nullptr while it must be held, which changes nothing
+    /// but leaves the broadcast undone. Valid until the next call.
+    const Message* broadcast() {
+        const auto stamp = source_->stamp_to_send();
+        if (!stamp) return nullptr;
+        message_.energy = energy_;
+        message_.stamp = *stamp;
+        return &message_;
     }
 
     /// Precondition: the invariants of `Message`; they are not checked again here.
@@ -123,7 +139,7 @@ private:
     double energy_sum_ = 0.0;
     std::int64_t energy_samples_ = 0;
     RobotId robot_;
-    std::uint32_t births_ = 0;
+    std::uint32_t births_;
     const OdneatSettings& settings_;
     std::unique_ptr<InnovationSource> source_;
     RandomStream random_;

@@ -6,10 +6,14 @@
 namespace gene_clocks::neat {
 
 /// Marks genes with a gene clock (paper, section 3.1).
+///
+/// Its counter lives in memory only, and it trusts whom it hears: for simulations. A robot uses
+/// DurableGeneClockSource.
 class GeneClockSource final : public InnovationSource {
 public:
     /// Preconditions: those of GeneClock.
-    GeneClockSource(RobotId robot, std::uint64_t genesis_count) : clock_(robot, genesis_count) {}
+    GeneClockSource(RobotId robot, std::uint64_t genesis_count, GeneClock::Limits limits = {})
+        : clock_(robot, genesis_count, limits) {}
 
     std::optional<SplitMarks> mark_split(const Genome&, std::size_t, double) override {
         const auto marks = clock_.mint(3);

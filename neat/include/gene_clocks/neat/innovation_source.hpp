@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "gene_clocks/gene_clock.hpp"
 #include "gene_clocks/innovation_number.hpp"
 #include "gene_clocks/neat/genome.hpp"
 
@@ -38,8 +39,17 @@ public:
     /// What a message carries beside the genome; zero for a source that sends nothing.
     virtual Stamp stamp() const = 0;
 
+    /// The stamp of a message that is to leave now; nullopt while it must be held, since what it
+    /// says is not yet on stable storage.
+    virtual std::optional<Stamp> stamp_to_send() { return stamp(); }
+
     /// Reception of a message's stamp. False: the message must be dropped whole.
     virtual bool observe(Stamp stamp) = 0;
+
+    /// The same with a look at the genome, for a source that trusts nobody.
+    virtual Admission admit(Stamp stamp, const Genome&) {
+        return observe(stamp) ? Admission::admitted : Admission::beyond_window;
+    }
 };
 
 }  // namespace gene_clocks::neat

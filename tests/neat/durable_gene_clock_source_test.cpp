@@ -1,0 +1,153 @@
+#include "gene_clocks/neat/durable_gene_clock_source.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "gene_clocks/neat/agent.hpp"
+#include "sample_genomes.hpp"
+
+namespace gene_clocks::neat {
+namespace {
+
+using namespace samples;
+
+constexpr RobotId robot{5};
+const std::uint64_t genesis_marks = genesis_mark_count(2, 1);
+
+/// Storage that works when it is told to, and remembers how often it was written.
+class SwitchedStorage {
+public:
+    explicit SwitchedStorage(std::uint64_t stored) : stored_{stored} {}
+    StorageStatus store(std::uint64_t counter) {
+        if (counter <= stored_) return {};
+        if (!works) return {StorageError::device, 5};
+        ++writes;
+        stored_ = counter;
+        return {};
+    }
+    std::uint64_t stored() const { return stored_; }
+
+    bool works = true;
+    int writes = 0;
+
+private:
+    std::uint64_t stored_;
+};
+
+using Source = DurableGeneClockSource<SwitchedStorage>;
+
+class DurableGeneClockSourceTest : public testing::Test {
+protected:
+    InnovationNumber mint(Source& source) {
+        return source.mark_connection(genome_, {}, 0.0).value();
+    }
+    static Message message(std::vector<InnovationNumber> more_marks, std::uint64_t stamp) {
+        auto genome = perceptron(2, 1);
+        auto topology = *genome.topology;
+        for (const auto mark : more_marks) topology.neurons.push_back({mark, NeuronKind::hidden});
+        genome.topology = std::make_shared<const Topology>(std::move(topology));
+        return {std::make_shared<const Genome>(std::move(genome)), 50.0f, Stamp{stamp}};
+    }
+
+    Genome genome_ = perceptron(2, 1);
+    SwitchedStorage storage_{genesis_marks + 1};
+};
+
+TEST_F(DurableGeneClockSourceTest, HoldsWhatStorageDoesNotCover) {
+    const auto source = Source::restart(robot, storage_);
+    ASSERT_TRUE(source);
+    EXPECT_EQ(source->stamp_to_send(), Stamp{genesis_marks + 1}) << "nothing was made yet";
+    EXPECT_EQ(storage_.writes, 0);
+
+    storage_.works = false;
+    const auto mark = mint(*source);
+    EXPECT_EQ(source->stamp_to_send(), std::nullopt);
+    EXPECT_EQ(source->storage_status(), (StorageStatus{StorageError::device, 5}));
+    storage_.works = true;
+    EXPECT_EQ(source->stamp_to_send(), Stamp{mark.counter + 1});
+    EXPECT_EQ(storage_.stored(), mark.counter + 1);
+}
+
+TEST_F(DurableGeneClockSourceTest, WritesOncePerBlock) {
+    const auto source = Source::restart(robot, storage_, {.block = 99});
+    for (int i = 0; i < 1000; ++i) {
+        mint(*source);
+        ASSERT_TRUE(source->stamp_to_send());
+    }
+    EXPECT_EQ(storage_.writes, 10);
+}
+
+TEST_F(DurableGeneClockSourceTest, GoesOnAboveWhatItSentBefore) {
+    Stamp sent;
+    {
+        const auto source = Source::restart(robot, storage_, {.block = 10});
+        mint(*source);
+        ASSERT_TRUE(source->observe(Stamp{100}));
+        mint(*source);
+        sent = source->stamp_to_send().value();
+        mint(*source);  // lost with the crash, and never sent
+    }
+    const auto source = Source::restart(robot, storage_);
+    EXPECT_GE(mint(*source).counter, sent.value);
+}
+
+TEST_F(DurableGeneClockSourceTest, DoesNotStartFromWhatNoClockStored) {
+    SwitchedStorage closed{0};
+    EXPECT_EQ(Source::restart(robot, closed), nullptr);
+    SwitchedStorage high{101};
+    EXPECT_EQ(Source::restart(robot, high, {.maximum = 100}), nullptr);
+    EXPECT_EQ(Source::restart(genesis_robot, storage_), nullptr);
+}
+
+// ---- In an agent ----
+
+class DurableAgentTest : public DurableGeneClockSourceTest {
+protected:
+    Agent agent(AdmissionGate::Policy admission = {}) {
+        auto source = Source::restart(robot, storage_, {}, admission);
+        source_ = source.get();
+        return Agent(robot, settings_, make_initial_topology(2, 1), std::move(source),
+                     RandomStream(1, 1), 40);
+    }
+    OdneatSettings settings_;
+    Source* source_ = nullptr;
+};
+
+TEST_F(DurableAgentTest, HoldsItsBroadcast) {
+    Agent holding = agent();
+    EXPECT_EQ(holding.active().id, (GenomeId{robot, 40})) << "beyond its earlier lives";
+    ASSERT_NE(holding.broadcast(), nullptr);
+    storage_.works = false;
+    // What it heard counts as well: its next genes lie above that.
+    ASSERT_EQ(holding.receive(message({}, 200)), Reception::accepted);
+    EXPECT_EQ(holding.broadcast(), nullptr);
+    storage_.works = true;
+    const Message* sent = holding.broadcast();
+    ASSERT_NE(sent, nullptr);
+    EXPECT_EQ(sent->stamp, Stamp{200});
+    EXPECT_EQ(sent->genome.get(), &holding.active());
+    EXPECT_GE(storage_.stored(), 200u);
+}
+
+TEST_F(DurableAgentTest, ReportsAMarkOfItsOwnThatItNeverMade) {
+    Agent wary = agent();
+    const std::size_t members = wary.population().members().size();
+    EXPECT_EQ(wary.receive(message({{150, robot}}, 200)), Reception::identity_conflict);
+    EXPECT_EQ(source_->gate().conflicting_mark(), (InnovationNumber{150, robot}));
+    EXPECT_EQ(wary.population().members().size(), members);
+    EXPECT_EQ(source_->stamp(), Stamp{genesis_marks + 1});
+}
+
+TEST_F(DurableAgentTest, RefusesWhatTheGateRefusesAndLaterAdmitsIt) {
+    Agent paced = agent({.allowance = 10, .per_cycle = 5});
+    EXPECT_EQ(paced.receive(message({{30, RobotId{9}}}, 31)), Reception::refused);
+    EXPECT_EQ(paced.receive(message({{31, RobotId{9}}}, 31)), Reception::refused);
+    EXPECT_EQ(source_->gate().counts()[Admission::beyond_allowance], 1u);
+    EXPECT_EQ(source_->gate().counts()[Admission::gene_not_covered], 1u);
+    for (int cycle = 0; cycle < 3; ++cycle) source_->elapse();
+    EXPECT_EQ(paced.receive(message({{30, RobotId{9}}}, 31)), Reception::accepted);
+}
+
+}  // namespace
+}  // namespace gene_clocks::neat
