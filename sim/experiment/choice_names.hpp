@@ -17,8 +17,10 @@ template <>
 inline constexpr std::array<std::string_view, 2> choice_names<sim::Task> = {"navigation",
                                                                             "collection"};
 template <>
-inline constexpr std::array<std::string_view, 2> choice_names<sim::Source> = {"gene-clock",
-                                                                              "timestamp"};
+inline constexpr std::array<std::string_view, 9> choice_names<sim::Source> = {
+    "gene-clock",       "gene-clock-no-merge", "timestamp",
+    "timestamp-drift",  "random-identifier",   "global-counter",
+    "congruence-class", "content-hash",        "hybrid-logical-clock"};
 template <>
 inline constexpr std::array<std::string_view, 2> choice_names<sim::Actuation> = {
     "translation-rotation", "wheels"};

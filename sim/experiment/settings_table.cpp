@@ -191,6 +191,12 @@ std::vector<Setting> physics_rows() {
         row<&Settings::timestamp, &TimestampSettings::drift_ppm>(
             "timestamp.drift_ppm", {0, 9e5}, "ppm", "2",
             "a robot's clock drifts by a uniform draw from plus and minus this"),
+        row<&Settings::timestamp, &TimestampSettings::synchronised_every_cycles>(
+            "timestamp.synchronised_every_cycles", {0, 1e9}, "cycles", "",
+            "the clocks are set anew this often; 0: never"),
+        row<&Settings::timestamp, &TimestampSettings::synchronisation_error_cycles>(
+            "timestamp.synchronisation_error_cycles", {0, 1e9}, "cycles", "",
+            "a clock that is set anew is off by a uniform draw from plus and minus this"),
     };
 }
 

@@ -7,29 +7,16 @@
 #include <stdexcept>
 
 #include "gene_clocks/neat/agent.hpp"
-#include "gene_clocks/neat/gene_clock_source.hpp"
-#include "gene_clocks/neat/timestamp_source.hpp"
 #include "observed_source.hpp"
 #include "radio.hpp"
+#include "random_streams.hpp"
+#include "source_factory.hpp"
 #include "task.hpp"
 #include "trajectory_hash.hpp"
 #include "world.hpp"
 
 namespace gene_clocks::sim {
 namespace {
-
-/// Streams of random numbers that are not a robot's own.
-enum class Stream : std::uint64_t {
-    placement = 1,
-    order = 2,
-    radio = 3,
-    clocks = 4,
-    robots = 1000
-};
-
-neat::RandomStream make_stream(std::uint64_t seed, Stream stream, std::uint64_t offset = 0) {
-    return {seed, static_cast<std::uint64_t>(stream) + offset};
-}
 
 double thread_cpu_seconds() {
     timespec time{};
@@ -47,22 +34,6 @@ struct InputLayout {
 };
 constexpr std::size_t output_count = 2;
 constexpr std::size_t input_stride = 20;  // floats between two robots' inputs; at least 18
-
-std::unique_ptr<neat::InnovationSource> make_source(const Settings& settings, RobotId robot,
-                                                    std::uint64_t genesis_count,
-                                                    neat::RandomStream& random) {
-    switch (settings.source) {
-        case Source::gene_clock:
-            return std::make_unique<neat::GeneClockSource>(robot, genesis_count);
-        case Source::timestamp: {
-            const double offset = random.uniform(-1.0, 1.0) * settings.timestamp.offset_cycles;
-            const double drift = random.uniform(-1.0, 1.0) * settings.timestamp.drift_ppm * 1e-6;
-            return std::make_unique<neat::TimestampSource>(robot, genesis_count,
-                                                           neat::LocalTime{offset, drift});
-        }
-    }
-    throw std::invalid_argument("unknown innovation source");
-}
 
 void check(const Settings& settings, const Arena& arena) {
     const auto require = [](bool condition, const char* what) {
@@ -172,11 +143,11 @@ Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64
     const std::size_t robots = world_.robots();
     const auto topology = neat::make_initial_topology(layout_.count(), output_count);
     const std::uint64_t genesis = genesis_count(settings_);
-    neat::RandomStream clock_random = make_stream(seed, Stream::clocks);
+    SourceFactory sources(settings_, genesis, seed);
     agents_.reserve(robots);
     for (std::size_t i = 0; i < robots; ++i) {
         const RobotId robot{static_cast<std::uint32_t>(i + 1)};
-        auto source = make_source(settings_, robot, genesis, clock_random);
+        auto source = sources.make(robot);
         if (observer_ != nullptr) {
             source = std::make_unique<ObservedSource>(std::move(source), robot, *observer_);
         }

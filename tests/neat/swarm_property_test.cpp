@@ -224,6 +224,50 @@ RC_GTEST_PROP(SwarmProperty, TimestampsAreUniqueWhateverTheDrift, ()) {
     RC_ASSERT(swarm.all_marks_are_new());
 }
 
+RC_GTEST_PROP(SwarmProperty, HybridLogicalClocksRespectCauseAndEffectWhateverTheDrift, ()) {
+    RandomStream drift(*rc::gen::arbitrary<std::uint32_t>(), 0);
+    Swarm swarm(random_graph(), random_faults(), *rc::gen::arbitrary<std::uint32_t>(),
+                [&](RobotId robot, std::uint64_t genesis_marks) {
+                    const LocalTime time{.offset_cycles = drift.uniform(-1e3, 1e3),
+                                         .drift_rate = drift.uniform(-0.9, 0.9)};
+                    return std::make_unique<HybridLogicalClockSource>(robot, genesis_marks, time);
+                });
+    swarm.run(*rc::gen::inRange(0, 60));
+    RC_ASSERT(swarm.all_marks_are_new());
+    RC_ASSERT(swarm.violations_of_the_clock_condition() == 0u);
+}
+
+/// Sources that promise nothing about time, or that give robots the same mark: their genomes must
+/// be sound all the same.
+RC_GTEST_PROP(SwarmProperty, GenomesStayValidUnderEveryMarking, ()) {
+    const auto record = std::make_shared<InnovationRecord>(genesis_mark_count(2, 2));
+    const auto identifier_seed = *rc::gen::arbitrary<std::uint32_t>();
+    const std::vector<SourceMaker> makers{
+        [](RobotId robot, std::uint64_t genesis_marks) {
+            return std::make_unique<UnmergedGeneClockSource>(robot, genesis_marks);
+        },
+        [](RobotId robot, std::uint64_t genesis_marks) {
+            return std::make_unique<CongruenceClassSource>(robot, 1000, genesis_marks);
+        },
+        [&](RobotId robot, std::uint64_t genesis_marks) {
+            return std::make_unique<RandomIdentifierSource>(
+                genesis_marks, RandomStream(identifier_seed, static_cast<std::uint64_t>(robot)));
+        },
+        [](RobotId, std::uint64_t genesis_marks) {
+            return std::make_unique<ContentHashSource>(genesis_marks);
+        },
+        [&](RobotId, std::uint64_t) { return std::make_unique<GlobalCounterSource>(record); }};
+    const std::size_t maker = *rc::gen::inRange<std::size_t>(0, makers.size());
+    Swarm swarm(random_graph(), random_faults(), *rc::gen::arbitrary<std::uint32_t>(),
+                makers[maker]);
+    swarm.run(*rc::gen::inRange(0, 60));
+    for (const Agent& agent : swarm.agents()) {
+        for (const auto& member : agent.population().members()) {
+            RC_ASSERT(fault_of(*member.genome) == "valid");
+        }
+    }
+}
+
 // The checker must be able to fail: it refutes what is known to break the clock condition.
 
 Swarm ring_of_ten(const SourceMaker& make_source) {
@@ -247,6 +291,22 @@ TEST(SwarmChecker, FindsNothingWithSynchronisedTimestamps) {
     });
     EXPECT_TRUE(swarm.all_marks_are_new());
     EXPECT_EQ(swarm.violations_of_the_clock_condition(), 0u);
+}
+
+TEST(SwarmChecker, RefutesGeneClocksThatDoNotMerge) {
+    const Swarm swarm = ring_of_ten([](RobotId robot, std::uint64_t genesis_marks) {
+        return std::make_unique<UnmergedGeneClockSource>(robot, genesis_marks);
+    });
+    EXPECT_TRUE(swarm.all_marks_are_new());
+    EXPECT_GT(swarm.violations_of_the_clock_condition(), 0u);
+}
+
+TEST(SwarmChecker, RefutesCongruenceClasses) {
+    const Swarm swarm = ring_of_ten([](RobotId robot, std::uint64_t genesis_marks) {
+        return std::make_unique<CongruenceClassSource>(robot, 10, genesis_marks);
+    });
+    EXPECT_TRUE(swarm.all_marks_are_new());
+    EXPECT_GT(swarm.violations_of_the_clock_condition(), 0u);
 }
 
 TEST(SwarmChecker, RefutesTimestampsOfClocksThatAreSetApart) {

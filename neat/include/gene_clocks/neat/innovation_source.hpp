@@ -8,6 +8,9 @@
 
 namespace gene_clocks::neat {
 
+/// What stands for the robot in a mark that names none: its counter alone is the identity.
+inline constexpr RobotId no_robot{0xffff'ffff};
+
 /// The marks of the three genes that add-neuron creates.
 struct SplitMarks {
     InnovationNumber neuron;

@@ -1,14 +1,9 @@
 #pragma once
 
 #include "gene_clocks/neat/innovation_source.hpp"
+#include "gene_clocks/neat/local_time.hpp"
 
 namespace gene_clocks::neat {
-
-/// A robot's own clock: local time = offset + (1 + drift) · cycle.
-struct LocalTime {
-    double offset_cycles = 0.0;
-    double drift_rate = 0.0;  ///< 1e-6 per part per million
-};
 
 /// Marks genes with local timestamps, as odNEAT does (paper, section 2).
 ///
@@ -41,8 +36,7 @@ private:
         // Cycle zero of a synchronised clock reads as this, so that offsets down to minus 2^31
         // cycles stay positive.
         constexpr double epoch_cycles = 0x1p31;
-        const double ticks = ticks_per_cycle * (epoch_cycles + time_.offset_cycles +
-                                                (1.0 + time_.drift_rate) * now_cycles);
+        const double ticks = ticks_per_cycle * (epoch_cycles + time_.at(now_cycles));
         if (!(ticks < 0x1p63)) return std::nullopt;
         const auto tick = static_cast<std::uint64_t>(ticks > 0.0 ? ticks : 0.0);
         last_tick_ = tick > last_tick_ ? tick : last_tick_ + 1;

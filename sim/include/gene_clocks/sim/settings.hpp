@@ -9,8 +9,18 @@ namespace gene_clocks::sim {
 
 enum class Task : std::uint8_t { navigation, collection };
 
-/// What marks new genes.
-enum class Source : std::uint8_t { gene_clock, timestamp };
+/// What marks new genes; each has a file of its own in neat/.
+enum class Source : std::uint8_t {
+    gene_clock,            ///< the paper's
+    gene_clock_no_merge,   ///< the same without the maximum on reception
+    timestamp,             ///< local clocks, perfect unless TimestampSettings say otherwise
+    timestamp_drift,       ///< local clocks that are off
+    random_identifier,     ///< IM-(mu+1)
+    global_counter,        ///< NEAT's
+    congruence_class,      ///< robot i of n marks i, i + n, …
+    content_hash,          ///< what is changed is the identity
+    hybrid_logical_clock,  ///< physical and logical time in one
+};
 
 /// What the two outputs of a controller mean.
 enum class Actuation : std::uint8_t {
@@ -54,10 +64,14 @@ struct EnergySettings {
     double decay = 0.1;       ///< per cycle, collection (Equation 3)
 };
 
-/// Clocks of the timestamp source: local time = offset + (1 + drift) · cycle.
+/// The robots' physical clocks: local time = offset + (1 + drift) · cycle. All zero is a perfect
+/// clock, except for Source::timestamp_drift, which then takes ±10 000 cycles and ±100 ppm.
 struct TimestampSettings {
-    double offset_cycles = 0.0;  ///< each robot's offset is uniform in ±offset_cycles
-    double drift_ppm = 0.0;      ///< each robot's drift rate is uniform in ±drift_ppm
+    double offset_cycles = 0.0;              ///< each robot's offset is uniform in ±offset_cycles
+    double drift_ppm = 0.0;                  ///< each robot's drift rate is uniform in ±drift_ppm
+    double synchronised_every_cycles = 0.0;  ///< clocks are set anew this often; 0: never
+    double synchronisation_error_cycles = 0.0;  ///< each time off by a uniform draw in ± this
+    friend bool operator==(const TimestampSettings&, const TimestampSettings&) = default;
 };
 
 struct RunSettings {

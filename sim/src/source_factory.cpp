@@ -1,0 +1,76 @@
+#include "source_factory.hpp"
+
+#include <stdexcept>
+
+#include "gene_clocks/neat/congruence_class_source.hpp"
+#include "gene_clocks/neat/content_hash_source.hpp"
+#include "gene_clocks/neat/gene_clock_source.hpp"
+#include "gene_clocks/neat/hybrid_logical_clock_source.hpp"
+#include "gene_clocks/neat/random_identifier_source.hpp"
+#include "gene_clocks/neat/timestamp_source.hpp"
+#include "gene_clocks/neat/unmerged_gene_clock_source.hpp"
+#include "random_streams.hpp"
+
+namespace gene_clocks::sim {
+namespace {
+
+/// What drifts when nobody says how: quartz that is off by up to 100 ppm, in robots that were
+/// switched on within ten thousand cycles.
+constexpr TimestampSettings typical_drift{.offset_cycles = 10'000.0, .drift_ppm = 100.0};
+
+}  // namespace
+
+SourceFactory::SourceFactory(const Settings& settings, std::uint64_t genesis_count,
+                             std::uint64_t seed)
+    : settings_(settings),
+      genesis_count_(genesis_count),
+      seed_(seed),
+      clock_random_(make_stream(seed, Stream::clocks)) {
+    if (settings.source == Source::global_counter) {
+        record_ = std::make_shared<neat::InnovationRecord>(genesis_count);
+    }
+}
+
+neat::LocalTime SourceFactory::draw_local_time(RobotId robot) {
+    const bool is_typical =
+        settings_.source == Source::timestamp_drift && settings_.timestamp == TimestampSettings{};
+    const TimestampSettings& clock = is_typical ? typical_drift : settings_.timestamp;
+    neat::LocalTime time;
+    time.offset_cycles = clock_random_.uniform(-1.0, 1.0) * clock.offset_cycles;
+    time.drift_rate = clock_random_.uniform(-1.0, 1.0) * clock.drift_ppm * 1e-6;
+    time.synchronised_every_cycles = clock.synchronised_every_cycles;
+    time.synchronisation_error_cycles = clock.synchronisation_error_cycles;
+    time.seed =
+        make_stream(seed_, Stream::synchronisation, static_cast<std::uint64_t>(robot)).bits();
+    return time;
+}
+
+std::unique_ptr<neat::InnovationSource> SourceFactory::make(RobotId robot) {
+    const auto index = static_cast<std::uint64_t>(robot);
+    switch (settings_.source) {
+        case Source::gene_clock:
+            return std::make_unique<neat::GeneClockSource>(robot, genesis_count_);
+        case Source::gene_clock_no_merge:
+            return std::make_unique<neat::UnmergedGeneClockSource>(robot, genesis_count_);
+        case Source::timestamp:
+        case Source::timestamp_drift:
+            return std::make_unique<neat::TimestampSource>(robot, genesis_count_,
+                                                           draw_local_time(robot));
+        case Source::random_identifier:
+            return std::make_unique<neat::RandomIdentifierSource>(
+                genesis_count_, make_stream(seed_, Stream::identifiers, index));
+        case Source::global_counter:
+            return std::make_unique<neat::GlobalCounterSource>(record_);
+        case Source::congruence_class:
+            return std::make_unique<neat::CongruenceClassSource>(
+                robot, static_cast<std::uint64_t>(settings_.world.robots), genesis_count_);
+        case Source::content_hash:
+            return std::make_unique<neat::ContentHashSource>(genesis_count_);
+        case Source::hybrid_logical_clock:
+            return std::make_unique<neat::HybridLogicalClockSource>(robot, genesis_count_,
+                                                                    draw_local_time(robot));
+    }
+    throw std::invalid_argument("unknown innovation source");
+}
+
+}  // namespace gene_clocks::sim
