@@ -11,7 +11,13 @@
 #include <vector>
 
 #include "gene_clocks/neat/agent.hpp"
+#include "gene_clocks/neat/congruence_class_source.hpp"
+#include "gene_clocks/neat/content_hash_source.hpp"
+#include "gene_clocks/neat/global_counter_source.hpp"
+#include "gene_clocks/neat/hybrid_logical_clock_source.hpp"
+#include "gene_clocks/neat/random_identifier_source.hpp"
 #include "gene_clocks/neat/timestamp_source.hpp"
+#include "gene_clocks/neat/unmerged_gene_clock_source.hpp"
 #include "sample_genomes.hpp"
 
 // Agents that exchange genomes over random graphs, on a radio that loses, repeats, delays and
