@@ -317,11 +317,11 @@ std::optional<RunResult> run(const Settings& settings, const Arena& arena, std::
     const double start = thread_cpu_seconds();
     Simulation simulation(settings, arena, seed, observer);
     for (std::int64_t cycle = 0; cycle < settings.run.cycles; ++cycle) {
-        if (control != nullptr) {
-            if (control->stop.load(std::memory_order_relaxed)) return std::nullopt;
-            control->cycles_done.store(cycle, std::memory_order_relaxed);
+        if (control != nullptr && control->stop.load(std::memory_order_relaxed)) {
+            return std::nullopt;
         }
         simulation.run_cycle(cycle);
+        if (control != nullptr) control->cycles_done.store(cycle + 1, std::memory_order_relaxed);
     }
     RunResult result = simulation.take_result();
     result.cpu_seconds = thread_cpu_seconds() - start;

@@ -43,6 +43,10 @@ public:
     const Senses& senses(std::size_t robot) const { return senses_[robot]; }
     std::span<const float> x_px() const { return {x_px_.data(), robots()}; }
     std::span<const float> y_px() const { return {y_px_.data(), robots()}; }
+    /// Cosine and sine of the robots' headings.
+    std::span<const float> heading_x() const { return {cosine_.data(), robots()}; }
+    std::span<const float> heading_y() const { return {sine_.data(), robots()}; }
+    const ItemField& items() const { return items_; }
 
     /// Puts items whose time has come at random free places; those that find none try again.
     void replace_items(neat::RandomStream& random);

@@ -1,0 +1,157 @@
+#include "gene_clocks/sim/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+
+#include "gene_clocks/sim/run_observer.hpp"
+#include "naive_geometry.hpp"
+
+namespace gene_clocks::sim {
+namespace {
+
+class SimulationTest : public testing::Test {
+protected:
+    SimulationTest() {
+        settings_.world.robots = 12;
+        settings_.world.items = 3;
+        settings_.run.cycles = 3000;
+    }
+    RunResult run(std::uint64_t seed = 1) { return simulate(settings_, arena_, seed).value(); }
+
+    Settings settings_;
+    Arena arena_ = naive::arena();
+};
+
+class Counter final : public RunObserver {
+public:
+    void gene_marked(RobotId, InnovationNumber mark, double) override { marks.insert(mark); }
+    void message_sent(RobotId, Stamp, InnovationNumber) override { ++sent; }
+    void message_admitted(RobotId, std::uint64_t message, Stamp) override {
+        EXPECT_LT(message, sent);
+        ++admitted;
+    }
+    std::set<InnovationNumber> marks;
+    std::uint64_t sent = 0, admitted = 0;
+};
+
+TEST_F(SimulationTest, IsAFunctionOfSettingsAndSeed) {
+    for (const Task task : {Task::navigation, Task::collection}) {
+        settings_.task = task;
+        EXPECT_EQ(run(1).trajectory_hash, run(1).trajectory_hash);
+        EXPECT_NE(run(1).trajectory_hash, run(2).trajectory_hash);
+    }
+}
+
+TEST_F(SimulationTest, SamplesEveryPeriodAndCountsSteps) {
+    const RunResult result = run();
+    ASSERT_EQ(result.samples.size(), 30u);
+    for (std::size_t i = 0; i < result.samples.size(); ++i) {
+        EXPECT_EQ(result.samples[i].cycle, 100 * static_cast<std::int64_t>(i));
+    }
+    EXPECT_EQ(result.samples[0].swarm_fitness, 100.0);
+    EXPECT_EQ(result.samples[0].species, 1.0);
+    EXPECT_EQ(result.samples[0].added_elements, 0.0);
+    EXPECT_EQ(result.robot_steps, 12u * 3000u);
+    EXPECT_GT(result.counters.births, 20u);
+    EXPECT_GT(result.counters.messages_received, 100u);
+    EXPECT_GE(result.counters.births, result.counters.matings);
+}
+
+TEST_F(SimulationTest, AnObserverSeesEverythingAndChangesNothing) {
+    Counter counter;
+    const RunResult observed = simulate_observed(settings_, arena_, 1, counter).value();
+    const RunResult alone = run();
+    EXPECT_EQ(observed.trajectory_hash, alone.trajectory_hash);
+    EXPECT_EQ(counter.sent, alone.counters.messages_sent);
+    EXPECT_EQ(counter.admitted, alone.counters.messages_received);
+    EXPECT_EQ(counter.marks.size(), alone.counters.genes_created);
+}
+
+TEST_F(SimulationTest, CreationTimesAreRecordedWhereAskedFor) {
+    EXPECT_TRUE(run().creations.empty());
+    settings_.run.record_creation_times = true;
+    const RunResult recorded = run();
+    ASSERT_EQ(recorded.creations.size(), recorded.counters.genes_created);
+    EXPECT_GT(recorded.creations.size(), 10u);
+    for (std::size_t i = 1; i < recorded.creations.size(); ++i) {
+        EXPECT_LE(recorded.creations[i - 1].cycle, recorded.creations[i].cycle);
+    }
+    settings_.run.record_creation_times = false;
+    EXPECT_EQ(run().trajectory_hash, recorded.trajectory_hash);
+}
+
+TEST_F(SimulationTest, StopsWhenTold) {
+    RunControl control;
+    control.stop = true;
+    EXPECT_EQ(simulate(settings_, arena_, 1, &control), std::nullopt);
+    EXPECT_LT(control.cycles_done, settings_.run.cycles);
+}
+
+TEST_F(SimulationTest, TellsHowFarItIs) {
+    RunControl control;
+    ASSERT_TRUE(simulate(settings_, arena_, 1, &control));
+    EXPECT_EQ(control.cycles_done, settings_.run.cycles);
+}
+
+TEST_F(SimulationTest, ADeafSwarmReceivesNothing) {
+    settings_.radio.loss = 1.0;
+    const RunResult result = run();
+    EXPECT_GT(result.counters.messages_sent, 100u);
+    EXPECT_EQ(result.counters.messages_received, 0u);
+    EXPECT_EQ(result.counters.genomes_accepted, 0u);
+}
+
+TEST_F(SimulationTest, RefusesSettingsThatContradictEachOther) {
+    const auto refused = [&](auto change) {
+        Settings settings = settings_;
+        change(settings);
+        EXPECT_THROW(simulate(settings, arena_, 1), std::invalid_argument);
+    };
+    refused([](Settings& s) { s.world.robots = 0; });
+    refused([](Settings& s) { s.run.cycles = 0; });
+    refused([](Settings& s) { s.run.sample_period_cycles = 0; });
+    refused([](Settings& s) { s.odneat.population = 0; });
+    refused([](Settings& s) { s.radio.range_px = s.world.sensor_range_px + 1; });
+}
+
+TEST_F(SimulationTest, EverySourceWorksInEveryTask) {
+    settings_.run.cycles = 1000;
+    for (const Task task : {Task::navigation, Task::collection}) {
+        for (int source = 0; source <= static_cast<int>(Source::hybrid_logical_clock); ++source) {
+            settings_.task = task;
+            settings_.source = static_cast<Source>(source);
+            EXPECT_EQ(run().robot_steps, 12'000u);
+        }
+    }
+}
+
+// docs/markings.md: both sort genes by how many their robot had made, and then by robot.
+TEST_F(SimulationTest, CongruenceClassesAreGeneClocksWithoutTheMerge) {
+    settings_.odneat.p_mutate = 0.9;  // many genes, so that the merge has something to do
+    settings_.odneat.p_mate = 0.5;
+    settings_.source = Source::gene_clock_no_merge;
+    const auto unmerged = run().trajectory_hash;
+    settings_.source = Source::congruence_class;
+    EXPECT_EQ(run().trajectory_hash, unmerged);
+    settings_.source = Source::gene_clock;
+    EXPECT_NE(run().trajectory_hash, unmerged);
+}
+
+// docs/markings.md: an order that extends cause and effect sorts every genome by creation; where
+// excess weighs as much as disjoint, that is all that a marking can do.
+TEST_F(SimulationTest, MarkingsThatExtendCauseAndEffectGiveOneTrajectory) {
+    settings_.odneat.c_disjoint = settings_.odneat.c_excess;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        settings_.source = Source::gene_clock;
+        const auto expected = run(seed).trajectory_hash;
+        settings_.source = Source::timestamp;
+        EXPECT_EQ(run(seed).trajectory_hash, expected);
+        settings_.source = Source::hybrid_logical_clock;
+        EXPECT_EQ(run(seed).trajectory_hash, expected);
+    }
+}
+
+}  // namespace
+}  // namespace gene_clocks::sim
