@@ -63,7 +63,7 @@ TEST_F(BadInputTest, Choices) {
         {"run", "--task", "navigaton"},
         "--task: \"navigaton\" is not navigation or collection; did you mean navigation?");
     expect_refusal({"run", "--task", "navigation", "--source", "clock"},
-                   "--source: \"clock\" is not gene-clock or timestamp");
+                   "--source: \"clock\" is not gene-clock, gene-clock-no-merge, timestamp");
     expect_refusal({"run", "--task", "navigation", "--profile", "gecco16"},
                    "profile \"gecco16\": there is none of that name; did you mean gecco15?");
     expect_refusal({"run", "--task", "navigation", "--parameters", "D"}, "parameter set \"D\"");
