@@ -312,7 +312,7 @@ private:
     /// One bit of one record.
     void rot(World world) {
         world.has_rotten = true;
-        for (std::size_t s : {0, 1}) {
+        for (std::size_t s = 0; s < 2; ++s) {
             for (std::size_t slot = 0; slot < slots; ++slot) {
                 unsigned char& byte = world.memory.sectors[s][slot * counter_record_size + 14];
                 if (byte != 0) continue;

@@ -55,7 +55,7 @@ public:
         if (const auto status = scan(); status.error != StorageError::missing) {
             return status ? StorageStatus{StorageError::exists} : status;
         }
-        for (std::size_t sector : {0, 1}) {
+        for (std::size_t sector = 0; sector < 2; ++sector) {
             if (sectors_[sector].written > 0 && !erase(sector)) return {StorageError::device};
         }
         return write(counter);
@@ -96,7 +96,7 @@ private:
     };
 
     StorageStatus scan() {
-        for (std::size_t sector : {0, 1}) sectors_[sector] = scan(sector);
+        for (std::size_t sector = 0; sector < 2; ++sector) sectors_[sector] = scan(sector);
         const auto& [first, second] = sectors_;
         const RecordReading all = merge(first.newest, second.newest);
         // A counter is acknowledged with its second record, so a single damaged one is a creation

@@ -44,8 +44,8 @@ public:
     StorageStatus open() {
         if (const auto status = acquire(); !status) return status;
         if (const auto status = read(); !status) return status;
-        // First what a killed process began: until its renaming is durable, the file that it concerns
-        // may not be relied on while the other is replaced.
+        // First what a killed process began: until its renaming is durable, the file that it
+        // concerns may not be relied on while the other is replaced.
         if (const int error = files_.sync_folder()) return checked(error);
         return write(std::max(found_[0].counter, found_[1].counter));
     }
