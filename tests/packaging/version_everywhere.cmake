@@ -1,6 +1,6 @@
 cmake_minimum_required(VERSION 3.25)
-# VERSION, as CMake has it, is also what the protocol has by itself, and what the citation and the
-# newest entry of the change log say.
+# VERSION, as CMake has it, is also what the protocol has by itself, and what the citation, the newest
+# entry of the change log and the packages' recipes say.
 file(STRINGS "${SOURCE}/CITATION.cff" cited REGEX "^version:")
 if(NOT cited MATCHES "^version: \"?${VERSION}\"?$")
     message(SEND_ERROR "CITATION.cff has '${cited}', the build has ${VERSION}")
@@ -13,4 +13,8 @@ endif()
 file(STRINGS "${SOURCE}/protocol/CMakeLists.txt" alone REGEX "project\\(GeneClocks VERSION")
 if(NOT alone MATCHES "VERSION ${VERSION} ")
     message(SEND_ERROR "protocol/CMakeLists.txt has '${alone}', the build has ${VERSION}")
+endif()
+file(STRINGS "${SOURCE}/python/pyproject.toml" wheel REGEX "^version = ")
+if(NOT wheel STREQUAL "version = \"${VERSION}\"")
+    message(SEND_ERROR "python/pyproject.toml has '${wheel}', the build has ${VERSION}")
 endif()
