@@ -17,13 +17,14 @@ struct Travelled {
     Stamp stamp;
 };
 
-/// The perceptron of the navigation task (10 inputs, 2 outputs, 20 connections), grown to
-/// `connections` by the project's operators while it travels among a hundred robots. Each mutates
+/// A perceptron (by default that of the navigation task, 20 connections), grown to `connections` by
+/// the project's operators while it travels among a hundred robots. Each mutates
 /// it once; between two of its mutations the swarm makes up to 50 other genes.
-inline Travelled travelled_genome(std::size_t connections, std::uint64_t seed) {
+inline Travelled travelled_genome(std::size_t connections, std::uint64_t seed,
+                                  std::size_t inputs = 10, std::size_t outputs = 2) {
     const neat::OdneatSettings settings;
     neat::RandomStream random(seed, 0);
-    const auto topology = neat::make_initial_topology(10, 2);
+    const auto topology = neat::make_initial_topology(inputs, outputs);
     Travelled travelled{
         neat::make_initial_genome({RobotId{1}, 0}, topology, settings.weight_limit, random),
         {topology->size() + 1}};

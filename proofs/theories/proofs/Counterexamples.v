@@ -286,6 +286,7 @@ Example each_damage_is_refused :
      damaged 10 [4; 4] [3; 5];                 (* a connection announced where a neuron is *)
      damaged 12 [16] [0];                      (* a mark that is not above the one before *)
      damaged 12 [16; 18] [18; 16];             (* an input after the bias *)
+     damaged 13 [18] [16];                     (* no bias *)
      damaged 14 [20] [22];                     (* no output *)
      damaged 16 [0; 2] [4; 2];                 (* a source that does not exist *)
      damaged 16 [0; 2] [0; 1];                 (* a connection into the bias *)
@@ -296,3 +297,9 @@ Example each_damage_is_refused :
      damaged 31 [19] [3]]                      (* the mark of the neuron before it *)
   = true.
 Proof. vm_compute. reflexivity. Qed.
+
+(** Limits may be infinite; numbers may not. *)
+Example infinity_is_never_within : map (fun bits => Wire.within bits (255 * 2 ^ 23))
+  [255 * 2 ^ 23 - 1; 255 * 2 ^ 23; 511 * 2 ^ 23; 2 ^ 31 - 1; 2 ^ 32 - 1]
+  = [true; false; false; false; false].
+Proof. reflexivity. Qed.
