@@ -2,8 +2,7 @@
     numbers stay the inductive ones that the theorems are about. *)
 From Coq Require Import Extraction ExtrOcamlBasic.
 From GeneClocks Require Import Mark Alignment Clock Protocol.
-From GeneClocks Require Trace Wire.
+From GeneClocks Require Trace.
 
 Extraction Language OCaml.
-Extraction "proved.ml" align step gene_clocks init Trace.check_entry Trace.check_init
-  Wire.decode Wire.encode.
+Extraction "proved.ml" align step gene_clocks init Trace.check_entry Trace.check_init.

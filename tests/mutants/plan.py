@@ -7,9 +7,13 @@ def programs(link, folder, *names):
     return Step(link, tuple(f"tests/{folder}/{name}_test" for name in names))
 
 
-PROTOCOL = programs("unit", "protocol", "innovation_number", "align", "gene_clock", "kernel")
-NEAT = programs("unit", "neat", "agent", "crossover", "distance", "gene_clock_source", "genome",
-                "mutation", "population", "random", "tabu_list", "timestamp_source")
+PROTOCOL = programs("unit", "protocol", "innovation_number", "align", "gene_clock", "admission_gate",
+                    "kernel")
+NEAT = programs("unit", "neat", "agent", "comparison_sources", "crossover", "distance",
+                "durable_gene_clock_source", "gene_clock_source", "genome", "mutation", "population",
+                "random", "tabu_list", "timestamp_source")
+STORAGE = programs("unit", "storage", "stored_counter", "file_store")
+POWER_CUTS = programs("explorer", "storage", "simulated_disk")
 TRACE = programs("unit", "sim/trace", "trace")
 MUST_NOT_COMPILE = Step("must not compile", (), r"^protocol\.must_not_compile\.")
 PAPER = programs("paper", "paper", "section_2_related_work", "section_3_1_marking",
@@ -26,6 +30,8 @@ FUZZ = Step("fuzz", ("align_fuzz_replay", "canary_fuzz_replay", "clock_schedule_
 
 # By the folder that the fault is in; the first that fits.
 AREAS = {
+    "protocol/include/gene_clocks/stored_counter.hpp": [STORAGE, POWER_CUTS],
+    "protocol/storage/": [STORAGE, POWER_CUTS],
     "protocol/": [MUST_NOT_COMPILE, PROTOCOL, SWARMS, EXPLORER, ORACLE, FUZZ, PAPER, NEAT, OPERATORS,
                   TRACE],
     "neat/": [NEAT, OPERATORS, PAPER, FUZZ],
@@ -43,8 +49,16 @@ LIKELY = {
     "kernel.h/align": "tests/protocol/align_test",
     "kernel.h/equal": "tests/protocol/align_test",
     "kernel.h/less": "tests/protocol/innovation_number_test",
+    "kernel.h/find-unmade": "tests/protocol/admission_gate_test",
+    "kernel.h/earn": "tests/protocol/admission_gate_test",
+    "kernel.h/admit": "tests/protocol/admission_gate_test",
     "kernel.h/": "tests/protocol/gene_clock_test",
     "marks.hpp/": "tests/protocol/align_test",
+    "local_time.hpp/": "tests/neat/timestamp_source_test",
+    "hybrid_logical_clock_source.hpp/": "tests/neat/comparison_sources_test",
+    "congruence_class_source.hpp/": "tests/neat/comparison_sources_test",
+    "random_identifier_source.hpp/": "tests/neat/comparison_sources_test",
+    "global_counter_source.hpp/": "tests/neat/comparison_sources_test",
 }
 
 

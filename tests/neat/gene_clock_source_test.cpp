@@ -48,6 +48,13 @@ TEST_F(GeneClockSourceTest, TakesTheMaximumWithAReceivedStamp) {
     EXPECT_EQ(mark_connection(source), mark(100, 5));
 }
 
+TEST_F(GeneClockSourceTest, RefusesWhatItsLimitsRefuse) {
+    GeneClockSource source(RobotId{5}, 5, {.maximum = 100, .window = 10});
+    EXPECT_FALSE(source.observe(Stamp{17}));
+    EXPECT_EQ(source.stamp(), Stamp{6});
+    EXPECT_TRUE(source.observe(Stamp{16}));
+}
+
 TEST_F(GeneClockSourceTest, DoesNotLookAtTheTime) {
     GeneClockSource source(RobotId{5}, 5);
     EXPECT_EQ(source.mark_connection(genome_, {}, 1e9), mark(6, 5));

@@ -212,6 +212,16 @@ TEST(SwarmProperty, ManyRobotsKeepEveryPromise) {
     test::check_property([] { run_swarm(200, Slip::none); }, 2);
 }
 
+// Most canaries break more than uniqueness, so that its checker has a test of its own.
+TEST(SwarmChecker, SeesAMarkThatTwoGenesShare) {
+    const test::Event mint{
+        .robot = 0, .counter_after = 2, .minted = InnovationNumber{1, RobotId{1}}};
+    test::History history{mint, mint};
+    EXPECT_ANY_THROW(test::assert_marks_unique(history));
+    history.front().is_undone = true;
+    EXPECT_NO_THROW(test::assert_marks_unique(history));
+}
+
 // The canaries: a swarm that breaks one rule must be caught, or the checks above are worth nothing.
 class Canary : public testing::TestWithParam<Slip> {};
 
