@@ -301,6 +301,16 @@ TEST(WireFrame, WhatWouldBeRefusedIsNotWritten) {
     EXPECT_EQ(error_of({RobotId{1}, Stamp{6}, 0.0f, Bytes(19)}), WireError::too_long);
 }
 
+TEST(WireFrame, InfinityIsRefusedEvenUnderAnInfiniteLimit) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Bytes buffer(64);
+    const WireLimits limits{.energy = infinity};
+    EXPECT_TRUE(encode_frame({RobotId{1}, Stamp{6}, 1e38f, {}}, buffer, limits));
+    const auto refused = encode_frame({RobotId{1}, Stamp{6}, infinity, {}}, buffer, limits);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.fault().error, WireError::energy);
+}
+
 TEST(WireGenome, AWriterWithoutRoomTellsHowMuchIsNeeded) {
     for (const Bytes& frame_bytes : valid_frames()) {
         const auto message = test::decode_message(frame_bytes, vectors().limits);
