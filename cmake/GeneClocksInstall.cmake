@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 
 set(gene_clocks_package_directory "${CMAKE_INSTALL_LIBDIR}/cmake/GeneClocks")
 
-foreach(component protocol storage neat sim)
+foreach(component protocol storage authentication neat sim)
     if(TARGET gene_clocks_${component})
         install(TARGETS gene_clocks_${component} EXPORT GeneClocks-${component}
             COMPONENT ${component}

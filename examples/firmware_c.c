@@ -92,10 +92,10 @@ static bool add_neuron(struct robot* robot, size_t index) {
 /* Writes the robot's genome as a frame; 0 where it does not fit or the counter cannot be stored. */
 static size_t broadcast(struct robot* robot, uint8_t* bytes, size_t capacity) {
     static uint8_t payload[payload_bytes_max];
-    static struct gene_clocks_ends ends[connections_max];
+    static uint32_t joined[GENE_CLOCKS_JOINED_WORDS(connections_max)];
     struct gene_clocks_genome_writer writer;
     struct gene_clocks_fault fault = gene_clocks_begin_genome(
-        &writer, payload, sizeof payload, robot->genome, robot->clock.next, &wire_limits, ends);
+        &writer, payload, sizeof payload, robot->genome, robot->clock.next, &wire_limits, joined);
     for (size_t i = 0; !fault.error && i < gene_count(robot); ++i) {
         fault = gene_clocks_put_gene(&writer, &robot->genes[i]);
     }
@@ -115,13 +115,13 @@ static size_t broadcast(struct robot* robot, uint8_t* bytes, size_t capacity) {
 /* Takes the genome of a frame for its own. Where the frame is refused, the robot stays as it is. */
 static enum gene_clocks_wire_error receive(struct robot* robot, const uint8_t* bytes, size_t size) {
     static struct gene_clocks_gene genes[neurons_max + connections_max];
-    static struct gene_clocks_ends ends[connections_max];
+    static uint32_t joined[GENE_CLOCKS_JOINED_WORDS(connections_max)];
     struct gene_clocks_frame frame;
     struct gene_clocks_genome genome;
     struct gene_clocks_fault fault = gene_clocks_decode_frame(bytes, size, &wire_limits, &frame);
     if (!fault.error) {
         fault = gene_clocks_decode_genome(frame.payload, frame.payload_size, frame.stamp,
-                                          &wire_limits, &genome, genes, ends);
+                                          &wire_limits, &genome, genes, joined);
     }
     /* The clock hears the stamp before any gene is used. */
     if (!fault.error && !gene_clocks_observe(&robot->clock, &clock_limits, frame.stamp)) {

@@ -198,11 +198,11 @@ Message decode(const py::bytes& data, const WireLimits& limits) {
     const auto frame = decode_frame({bytes, static_cast<std::size_t>(size)}, limits);
     if (!frame) throw Refused{frame.fault()};
     const auto kernel_limits = limits.kernel_limits();
-    std::vector<kernel::gene_clocks_ends> ends(limits.connections);
+    std::vector<std::uint32_t> joined(GENE_CLOCKS_JOINED_WORDS(limits.connections));
     kernel::gene_clocks_genome_reader reader;
     auto fault =
         kernel::gene_clocks_open_genome(&reader, frame->payload.data(), frame->payload.size(),
-                                        frame->stamp.value, &kernel_limits, ends.data());
+                                        frame->stamp.value, &kernel_limits, joined.data());
     std::vector<Gene> genes;
     while (!fault.error && kernel::gene_clocks_genes_left(&reader) > 0) {
         Gene gene;
@@ -230,14 +230,14 @@ py::bytes encode(const Message& message, const WireLimits& limits) {
         throw Refused{{WireError::too_many_genes, 0}};
     }
     const auto kernel_limits = limits.kernel_limits();
-    std::vector<kernel::gene_clocks_ends> ends(limits.connections);
+    std::vector<std::uint32_t> joined(GENE_CLOCKS_JOINED_WORDS(limits.connections));
     std::vector<std::uint8_t> payload(genome_payload_bytes_max(neurons, connections));
     kernel::gene_clocks_genome_writer writer;
     auto fault = kernel::gene_clocks_begin_genome(
         &writer, payload.data(), payload.size(),
         {message.robot, message.birth, static_cast<std::uint16_t>(neurons),
          static_cast<std::uint16_t>(connections)},
-        message.stamp, &kernel_limits, ends.data());
+        message.stamp, &kernel_limits, joined.data());
     for (const Gene& gene : message.genes) {
         if (!fault.error) fault = kernel::gene_clocks_put_gene(&writer, &gene);
     }

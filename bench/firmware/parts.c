@@ -45,15 +45,15 @@ void align_genomes(const struct gene_clocks_mark* first, size_t first_size,
 struct gene_clocks_fault decode(const uint8_t* bytes, size_t size,
                                 const struct gene_clocks_wire_limits* limits,
                                 struct gene_clocks_frame* frame, struct gene_clocks_genome* genome,
-                                struct gene_clocks_gene* genes, struct gene_clocks_ends* ends);
+                                struct gene_clocks_gene* genes, uint32_t* joined);
 struct gene_clocks_fault decode(const uint8_t* bytes, size_t size,
                                 const struct gene_clocks_wire_limits* limits,
                                 struct gene_clocks_frame* frame, struct gene_clocks_genome* genome,
-                                struct gene_clocks_gene* genes, struct gene_clocks_ends* ends) {
+                                struct gene_clocks_gene* genes, uint32_t* joined) {
     struct gene_clocks_fault fault = gene_clocks_decode_frame(bytes, size, limits, frame);
     if (fault.error) return fault;
     return gene_clocks_decode_genome(frame->payload, frame->payload_size, frame->stamp, limits,
-                                     genome, genes, ends);
+                                     genome, genes, joined);
 }
 #endif
 
@@ -61,19 +61,19 @@ struct gene_clocks_fault decode(const uint8_t* bytes, size_t size,
 struct gene_clocks_fault encode(struct gene_clocks_frame* frame,
                                 const struct gene_clocks_wire_limits* limits,
                                 struct gene_clocks_genome genome,
-                                const struct gene_clocks_gene* genes, struct gene_clocks_ends* ends,
+                                const struct gene_clocks_gene* genes, uint32_t* joined,
                                 uint8_t* buffer, size_t capacity, size_t* size);
 struct gene_clocks_fault encode(struct gene_clocks_frame* frame,
                                 const struct gene_clocks_wire_limits* limits,
                                 struct gene_clocks_genome genome,
-                                const struct gene_clocks_gene* genes, struct gene_clocks_ends* ends,
+                                const struct gene_clocks_gene* genes, uint32_t* joined,
                                 uint8_t* buffer, size_t capacity, size_t* size) {
     /* The payload first, behind the place that its header may need. */
     const size_t front = gene_clocks_frame_overhead_bytes;
     if (capacity < front) return gene_clocks_fault_at(gene_clocks_wire_no_room, 0);
     struct gene_clocks_genome_writer writer;
     struct gene_clocks_fault fault = gene_clocks_begin_genome(
-        &writer, buffer + front, capacity - front, genome, frame->stamp, limits, ends);
+        &writer, buffer + front, capacity - front, genome, frame->stamp, limits, joined);
     const size_t count = (size_t)genome.neurons + genome.connections;
     for (size_t i = 0; !fault.error && i < count; ++i) {
         fault = gene_clocks_put_gene(&writer, &genes[i]);

@@ -36,16 +36,16 @@ void align_genomes(Marks first, Marks second, void (*visit)(GeneMatch, std::size
 #ifdef PART_DECODER
 WireResult<Frame> decode(std::span<const std::uint8_t> bytes, const WireLimits& limits,
                          kernel::gene_clocks_genome& genome, kernel::gene_clocks_gene* genes,
-                         kernel::gene_clocks_ends* ends);
+                         std::uint32_t* joined);
 WireResult<Frame> decode(std::span<const std::uint8_t> bytes, const WireLimits& limits,
                          kernel::gene_clocks_genome& genome, kernel::gene_clocks_gene* genes,
-                         kernel::gene_clocks_ends* ends) {
+                         std::uint32_t* joined) {
     const auto frame = decode_frame(bytes, limits);
     if (!frame) return frame;
     const auto kernel_limits = limits.kernel_limits();
-    const auto fault =
-        kernel::gene_clocks_decode_genome(frame->payload.data(), frame->payload.size(),
-                                          frame->stamp.value, &kernel_limits, &genome, genes, ends);
+    const auto fault = kernel::gene_clocks_decode_genome(frame->payload.data(),
+                                                         frame->payload.size(), frame->stamp.value,
+                                                         &kernel_limits, &genome, genes, joined);
     if (fault.error) return WireFault::from(fault);
     return frame;
 }

@@ -9,7 +9,7 @@ using namespace gene_clocks;
 namespace {
 
 constexpr kernel::gene_clocks_wire_limits kernel_limits = limits.kernel_limits();
-using Ends = std::array<kernel::gene_clocks_ends, limits.connections>;
+using Joined = std::array<std::uint32_t, GENE_CLOCKS_JOINED_WORDS(limits.connections)>;
 
 kernel::gene_clocks_gene to_wire(const Node& node) {
     // The kinds of nodes have the same order there.
@@ -59,13 +59,13 @@ bool has_genesis(const Genome& genome) {
 std::optional<std::vector<std::uint8_t>> encode(const Genome& genome, const GeneClock& clock) {
     const Stamp stamp = clock.stamp();
     std::vector<std::uint8_t> payload(limits.frame_bytes);
-    Ends ends;
+    Joined joined;
     kernel::gene_clocks_genome_writer writer;
     auto fault = kernel::gene_clocks_begin_genome(&writer, payload.data(), payload.size(),
                                                   {static_cast<std::uint32_t>(clock.robot()), 0,
                                                    static_cast<std::uint16_t>(genome.nodes.size()),
                                                    static_cast<std::uint16_t>(genome.links.size())},
-                                                  stamp.value, &kernel_limits, ends.data());
+                                                  stamp.value, &kernel_limits, joined.data());
     // Nodes and links go as one list in the order of their marks.
     auto node = genome.nodes.begin();
     auto link = genome.links.begin();
@@ -89,11 +89,11 @@ std::optional<std::vector<std::uint8_t>> encode(const Genome& genome, const Gene
 std::optional<Genome> decode(std::span<const std::uint8_t> bytes, GeneClock& clock) {
     const auto frame = decode_frame(bytes, limits);
     if (!frame) return std::nullopt;
-    Ends ends;
+    Joined joined;
     kernel::gene_clocks_genome_reader reader;
     auto fault =
         kernel::gene_clocks_open_genome(&reader, frame->payload.data(), frame->payload.size(),
-                                        frame->stamp.value, &kernel_limits, ends.data());
+                                        frame->stamp.value, &kernel_limits, joined.data());
     Genome genome;
     genome.fitness = frame->energy;
     while (!fault.error && kernel::gene_clocks_genes_left(&reader) > 0) {

@@ -1,7 +1,6 @@
 #include "gene_clocks/neat/message_codec.hpp"
 
 #include <cassert>
-#include <optional>
 #include <utility>
 
 namespace gene_clocks::neat {
@@ -25,15 +24,19 @@ gene_clocks_gene wire_gene(const NeuronGene& neuron) {
     return gene;
 }
 
-/// Index of a neuron by its mark. Initial neurons usually have the mark index + 1.
-std::optional<std::uint16_t> index_of(const Topology& topology, InnovationNumber mark) {
-    const std::uint64_t guess = mark.counter - 1;
-    if (guess < topology.neurons.size() && topology.neurons[guess].mark == mark) {
-        return static_cast<std::uint16_t>(guess);
+/// Index of a neuron by its mark; where there is none, one that no genome has, so that the checks
+/// refuse it. Initial neurons usually have the mark index + 1, and a new connection joins the
+/// newest neuron as often as not.
+std::uint16_t index_of(const Topology& topology, InnovationNumber mark, std::size_t newest) {
+    const auto& neurons = topology.neurons;
+    if (newest < neurons.size() && neurons[newest].mark == mark) {
+        return static_cast<std::uint16_t>(newest);
     }
-    const auto found = topology.find_neuron(mark);
-    if (!found) return std::nullopt;
-    return static_cast<std::uint16_t>(*found);
+    const std::uint64_t initial = mark.counter - 1;
+    if (initial < neurons.size() && neurons[initial].mark == mark) {
+        return static_cast<std::uint16_t>(initial);
+    }
+    return static_cast<std::uint16_t>(topology.find_neuron(mark).value_or(UINT16_MAX));
 }
 
 /// Calls `visit(gene)` for all genes in the order of marks, neurons before connections of the same
@@ -53,16 +56,14 @@ gene_clocks_fault for_each_gene(const Genome& genome, Visit visit) {
             continue;
         }
         const ConnectionEnds& ends = topology.connection_ends[connection];
-        const auto source = index_of(topology, ends.source);
-        const auto target = index_of(topology, ends.target);
+        const std::size_t newest = neuron - 1;
         gene_clocks_gene gene{};
         gene.mark = topology.connection_marks[connection].kernel_mark();
         gene.kind = gene_clocks_connection;
         gene.is_enabled = genome.is_enabled(connection);
         gene.is_recurrent = ends.recurrent;
-        // No genome has a neuron of this index, so that the checks refuse a missing one.
-        constexpr std::uint16_t missing = UINT16_MAX;
-        gene.ends = {source.value_or(missing), target.value_or(missing)};
+        gene.ends = {index_of(topology, ends.source, newest),
+                     index_of(topology, ends.target, newest)};
         gene.weight = genome.weights[connection];
         fault = visit(gene);
         ++connection;
@@ -73,9 +74,13 @@ gene_clocks_fault for_each_gene(const Genome& genome, Visit visit) {
 /// What all genomes of a fleet share of an initial gene; its weight and whether it is enabled are
 /// each genome's own.
 bool is_same_initial_gene(const gene_clocks_gene& a, const gene_clocks_gene& b) {
-    return gene_clocks_equal(a.mark, b.mark) && a.kind == b.kind &&
-           a.is_recurrent == b.is_recurrent && a.ends.source == b.ends.source &&
-           a.ends.target == b.ends.target;
+    // One after the other: compared at once, small fields that were just written would be loaded
+    // as one word, for which the processor waits.
+    if (!gene_clocks_equal(a.mark, b.mark)) return false;
+    if (a.kind != b.kind) return false;
+    if (a.is_recurrent != b.is_recurrent) return false;
+    if (a.ends.source != b.ends.source) return false;
+    return a.ends.target == b.ends.target;
 }
 
 }  // namespace
@@ -92,7 +97,7 @@ MessageCodec::MessageCodec(std::shared_ptr<const Topology> initial, const WireLi
     : initial_(std::move(initial)),
       limits_(limits),
       kernel_limits_(limits.kernel_limits()),
-      ends_(limits.connections) {
+      joined_(GENE_CLOCKS_JOINED_WORDS(limits.connections)) {
     const std::vector<float> any(initial_->connection_marks.size());
     for_each_gene({{}, initial_, any, any}, [&](const gene_clocks_gene& gene) {
         initial_genes_.push_back(gene);
@@ -146,7 +151,7 @@ WireResult<ReceivedMessage> MessageCodec::decode(std::span<const std::uint8_t> b
     Reading reading{};
     auto fault =
         gene_clocks_open_genome(&reading.reader, frame->payload.data(), frame->payload.size(),
-                                frame->stamp.value, &kernel_limits_, ends_.data());
+                                frame->stamp.value, &kernel_limits_, joined_.data());
     if (fault.error) return refused(fault);
     const gene_clocks_genome counts = reading.reader.checks.genome;
     reading.genome.id = {RobotId{counts.robot}, counts.birth};
@@ -224,7 +229,7 @@ WireResult<std::span<const std::uint8_t>> MessageCodec::encode(RobotId sender,
         &writer, payload, buffer_.size() - frame_overhead_bytes,
         {static_cast<std::uint32_t>(genome.id.robot), genome.id.birth,
          static_cast<std::uint16_t>(neurons), static_cast<std::uint16_t>(connections)},
-        message.stamp.value, &kernel_limits_, ends_.data());
+        message.stamp.value, &kernel_limits_, joined_.data());
     if (!fault.error) fault = write_genes(writer, genome);
     if (fault.error) return WireFault::from(fault);
     return encode_frame({sender, message.stamp, message.energy, {payload, writer.bytes.size}},

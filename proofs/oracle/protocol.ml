@@ -1,7 +1,7 @@
 (* The proved protocol behind a language of lines: for each command an answer, with the robot's next,
    durable and stored counter and how many marks it knows. The commands are those of Protocol.v, and:
    limits MAXIMUM BLOCK WINDOW GENESIS, which starts anew; flush ROBOT, which persists all that is
-   reserved; known ROBOT; align GENOME / GENOME. A mark is two words, counter and robot. *)
+   reserved; known ROBOT; align GENOME / GENOME; and wire, see wire.ml. A mark is two words, counter and robot. *)
 open Proved
 open Words
 
@@ -74,4 +74,6 @@ let answer = function
       let a, b = split [] genomes in
       let alignment = align (fun m -> m) (marks a) (marks b) in
       "aligned" ^ String.concat "" (List.map show_aligned alignment)
+  | [ "wire"; frame_bytes; genesis; neurons; connections; energy; weight; frame ] ->
+      Wire.answer frame_bytes genesis neurons connections energy weight frame
   | words -> malformed "no such command: '%s'" (String.concat " " words)

@@ -5,7 +5,7 @@
     hypothesis and each rule of the protocol a counterexample without it. *)
 From Coq Require Import NArith QArith List Sorting.Sorted.
 From GeneClocks Require Import Mark Alignment Clock Protocol Genome Recording.
-From GeneClocks Require Trace Admission.
+From GeneClocks Require Trace Admission Wire.
 Import ListNotations.
 Open Scope N_scope.
 
@@ -290,3 +290,21 @@ Definition trace_sends_survive : Prop :=
 (** No false alarms: what a run of the protocol records is accepted. *)
 Definition recordings_accepted : Prop :=
   forall l commands, valid l -> honest commands -> Trace.accepted l (recording l commands).
+
+(** ** The wire format *)
+
+(** What is written is read as what it was … *)
+Definition decode_encode : Prop :=
+  forall l m frame, Wire.encode l m = Some frame -> Wire.decode l frame = Some m.
+
+(** … and nothing else is read: every message has one encoding, and all other bytes are refused. *)
+Definition decode_canonical : Prop :=
+  forall l frame m, Wire.decode l frame = Some m -> Wire.encode l m = Some frame.
+
+(** What is read meets what alignment and the clock ask of genes, whoever sent it. *)
+Definition decoded_is_in_order : Prop :=
+  forall l frame m, Wire.decode l frame = Some m -> let genes := Wire.genes (Wire.content m) in
+    sorted (map Wire.mark_of genes)
+    /\ Forall (fun g => let gene := Wire.mark_of g in
+         1 <= counter gene < Wire.stamp m
+         /\ (maker gene = 0 <-> counter gene <= Wire.genesis_count l)) genes.

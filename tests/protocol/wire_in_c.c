@@ -5,7 +5,7 @@
 /* As firmware would have it: all memory is there from the start. */
 enum { neurons_max = 1024, connections_max = 1024, payload_max = 65536 };
 static struct gene_clocks_gene genes[neurons_max + connections_max];
-static struct gene_clocks_ends ends[connections_max];
+static uint32_t joined[GENE_CLOCKS_JOINED_WORDS(connections_max)];
 static uint8_t payload[payload_max];
 
 uint32_t c_crc32c(const uint8_t* bytes, size_t size) {
@@ -17,8 +17,8 @@ static struct gene_clocks_fault write(const struct gene_clocks_frame* frame,
                                       const struct gene_clocks_wire_limits* limits, uint8_t* out,
                                       size_t capacity, size_t* out_size) {
     struct gene_clocks_genome_writer writer;
-    struct gene_clocks_fault fault = gene_clocks_begin_genome(&writer, payload, sizeof payload,
-                                                              *genome, frame->stamp, limits, ends);
+    struct gene_clocks_fault fault = gene_clocks_begin_genome(
+        &writer, payload, sizeof payload, *genome, frame->stamp, limits, joined);
     for (size_t i = 0; !fault.error && i < (size_t)genome->neurons + genome->connections; ++i) {
         fault = gene_clocks_put_gene(&writer, &genes[i]);
     }
@@ -42,7 +42,7 @@ int c_transcode(const uint8_t* bytes, size_t size, const struct c_wire_limits* c
     *offset = fault.offset;
     if (fault.error) return (int)fault.error;
     fault = gene_clocks_decode_genome(frame.payload, frame.payload_size, frame.stamp, &limits,
-                                      &genome, genes, ends);
+                                      &genome, genes, joined);
     *offset = fault.offset + (size_t)(frame.payload - bytes);
     if (fault.error) return (int)fault.error;
     *offset = SIZE_MAX;

@@ -214,9 +214,9 @@ TEST(WireDamage, ARefusedFrameLeavesTheOutputAlone) {
         }
         kernel::gene_clocks_genome genome{1, 2, 3, 4};
         std::array<gene_clocks_gene, 24> genes{};
-        std::array<kernel::gene_clocks_ends, 12> ends{};
+        std::array<std::uint32_t, GENE_CLOCKS_JOINED_WORDS(12)> joined{};
         if (kernel::gene_clocks_decode_genome(frame.payload, frame.payload_size, frame.stamp,
-                                              &limits, &genome, genes.data(), ends.data())
+                                              &limits, &genome, genes.data(), joined.data())
                 .error) {
             EXPECT_TRUE(genome.robot == 1 && genome.birth == 2 && genome.neurons == 3 &&
                         genome.connections == 4);
@@ -227,7 +227,7 @@ TEST(WireDamage, ARefusedFrameLeavesTheOutputAlone) {
 TEST(WireDamage, NothingIsAllocated) {
     const auto limits = vectors().limits.kernel_limits();
     std::array<gene_clocks_gene, 24> genes{};
-    std::array<kernel::gene_clocks_ends, 12> ends{};
+    std::array<std::uint32_t, GENE_CLOCKS_JOINED_WORDS(12)> joined{};
     std::vector<Bytes> frames;
     for (const json& vector : vectors().all) {
         frames.push_back(from_hex(vector["frame"].get<std::string>()));
@@ -239,7 +239,7 @@ TEST(WireDamage, NothingIsAllocated) {
         kernel::gene_clocks_genome genome{};
         (void)kernel::gene_clocks_decode_genome(frame->payload.data(), frame->payload.size(),
                                                 frame->stamp.value, &limits, &genome, genes.data(),
-                                                ends.data());
+                                                joined.data());
     }
     EXPECT_EQ(test::allocations().count, before.count);
 }
@@ -315,10 +315,10 @@ TEST(WireGenome, AWriterWithoutRoomTellsHowMuchIsNeeded) {
     for (const Bytes& frame_bytes : valid_frames()) {
         const auto message = test::decode_message(frame_bytes, vectors().limits);
         const auto limits = vectors().limits.kernel_limits();
-        std::array<kernel::gene_clocks_ends, 12> ends{};
+        std::array<std::uint32_t, GENE_CLOCKS_JOINED_WORDS(12)> joined{};
         kernel::gene_clocks_genome_writer writer{};
         ASSERT_FALSE(kernel::gene_clocks_begin_genome(&writer, nullptr, 0, message->genome,
-                                                      message->stamp.value, &limits, ends.data())
+                                                      message->stamp.value, &limits, joined.data())
                          .error);
         for (const auto& gene : message->genes) {
             ASSERT_FALSE(kernel::gene_clocks_put_gene(&writer, &gene).error);

@@ -193,18 +193,24 @@ TEST_P(LosesNothing, WhateverHappensToTheDisk) {
     EXPECT_EQ(result.lives, GetParam().lives);
 }
 
+const auto name_of = [](const auto& info) { return std::string{info.param.name}; };
 INSTANTIATE_TEST_SUITE_P(
     SimulatedDisk, LosesNothing,
     testing::Values(RecordedScope{"PowerAndKills", {.largest = 6}, 584, 14676},
-                    RecordedScope{"OneCopyRots", {.largest = 3, .copies_rot = true}, 1090, 175836},
+                    RecordedScope{"RenamesTear", {.largest = 4, .renames_tear = true}, 473, 9150}),
+    name_of);
+#ifndef GENE_CLOCKS_SANITIZED  // there the small ones have to do
+INSTANTIATE_TEST_SUITE_P(
+    SimulatedDiskWithFaults, LosesNothing,
+    testing::Values(RecordedScope{"OneCopyRots", {.largest = 3, .copies_rot = true}, 1090, 175836},
                     RecordedScope{
                         "OperationsFail", {.largest = 3, .operations_fail = true}, 1112, 393085},
-                    RecordedScope{"RenamesTear", {.largest = 4, .renames_tear = true}, 473, 9150},
                     RecordedScope{"RenamesTearAndOperationsFail",
                                   {.largest = 2, .renames_tear = true, .operations_fail = true},
                                   171,
                                   42478}),
-    [](const auto& info) { return std::string{info.param.name}; });
+    name_of);
+#endif
 
 constexpr Scope plain{.largest = 1};
 constexpr Scope rot{.copies_rot = true};
@@ -212,14 +218,16 @@ constexpr Scope torn_renames{.renames_tear = true};
 constexpr const char* forgotten = "an acknowledged counter is forgotten";
 constexpr const char* lost = "it cannot be opened again";
 
+#ifndef GENE_CLOCKS_SANITIZED
 TEST(SimulatedDiskRefutes, AFileThatIsNotSynchronised) {
     EXPECT_EQ(explore(Slip::no_file_sync, plain).violation, lost);
 }
-TEST(SimulatedDiskRefutes, AFolderThatIsNotSynchronised) {
-    EXPECT_EQ(explore(Slip::no_folder_sync, plain).violation, forgotten);
-}
 TEST(SimulatedDiskRefutes, ARenamingBeforeTheSynchronisation) {
     EXPECT_EQ(explore(Slip::renamed_before_sync, rot).violation, lost);
+}
+#endif
+TEST(SimulatedDiskRefutes, AFolderThatIsNotSynchronised) {
+    EXPECT_EQ(explore(Slip::no_folder_sync, plain).violation, forgotten);
 }
 TEST(SimulatedDiskRefutes, ABadChecksumThatIsAccepted) {
     EXPECT_EQ(explore(Slip::checksum_ignored, rot).violation, "a counter that nobody stored");

@@ -40,12 +40,12 @@ inline WireResult<WireMessage> decode_message(std::span<const std::uint8_t> byte
     const auto frame = decode_frame(bytes, limits);
     if (!frame) return frame.fault();
     const auto kernel_limits = limits.kernel_limits();
-    std::vector<kernel::gene_clocks_ends> ends(limits.connections);
+    std::vector<std::uint32_t> joined(GENE_CLOCKS_JOINED_WORDS(limits.connections));
     WireMessage message{frame->sender, frame->stamp, frame->energy, {}, {}};
     message.genes.resize(std::size_t{limits.neurons} + limits.connections);
     auto fault = kernel::gene_clocks_decode_genome(
         frame->payload.data(), frame->payload.size(), frame->stamp.value, &kernel_limits,
-        &message.genome, message.genes.data(), ends.data());
+        &message.genome, message.genes.data(), joined.data());
     if (fault.error) {
         fault.offset += static_cast<std::size_t>(frame->payload.data() - bytes.data());
         return WireFault::from(fault);
@@ -58,13 +58,13 @@ inline WireResult<WireMessage> decode_message(std::span<const std::uint8_t> byte
 inline WireResult<std::vector<std::uint8_t>> encode_message(const WireMessage& message,
                                                             const WireLimits& limits) {
     const auto kernel_limits = limits.kernel_limits();
-    std::vector<kernel::gene_clocks_ends> ends(limits.connections);
+    std::vector<std::uint32_t> joined(GENE_CLOCKS_JOINED_WORDS(limits.connections));
     std::vector<std::uint8_t> payload(
         genome_payload_bytes_max(message.genes.size(), message.genes.size()));
     kernel::gene_clocks_genome_writer writer{};
     auto fault =
         kernel::gene_clocks_begin_genome(&writer, payload.data(), payload.size(), message.genome,
-                                         message.stamp.value, &kernel_limits, ends.data());
+                                         message.stamp.value, &kernel_limits, joined.data());
     for (const auto& gene : message.genes) {
         if (!fault.error) fault = kernel::gene_clocks_put_gene(&writer, &gene);
     }

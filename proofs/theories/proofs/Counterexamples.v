@@ -1,7 +1,7 @@
 (** What goes wrong without each rule of the protocol, and without each hypothesis of a claim. *)
 From Coq Require Import NArith QArith List.
 From GeneClocks Require Import Mark Alignment Clock Protocol Genome Recording.
-From GeneClocks Require Claims Trace.
+From GeneClocks Require Claims Trace Wire.
 From GeneClocks.proofs Require Import Order Invariant Witnesses.
 Import ListNotations.
 Open Scope N_scope.
@@ -251,4 +251,55 @@ Proof. reflexivity. Qed.
 Example leaping_is_found :
   found [Trace.Mints 7 2 10; Trace.Stores 7 12; Trace.Sends 7 12 11; Trace.Receives 3 0 12]
   = (3%nat, Some Trace.NotAdmitted).
+Proof. reflexivity. Qed.
+
+(** ** Frames that are not: each rule of the format refuses something *)
+
+(** The witness's frame with some bytes replaced from a place on, under a checksum of its own. *)
+Definition damaged (place : nat) (before after : list N) : list N :=
+  let body := firstn place without_sum ++ after ++ skipn (place + length before) without_sum in
+  body ++ Wire.put_word 4 (Wire.crc32c body).
+Definition is_refused (frame : list N) : bool :=
+  match Wire.decode wire_limits frame with None => true | Some _ => false end.
+
+Example an_undamaged_frame_is_read : is_refused (damaged 1 [7] [7]) = false.
+Proof. vm_compute. reflexivity. Qed.
+
+Example a_wrong_checksum_is_refused : is_refused (without_sum ++ [39; 108; 11; 45]) = true.
+Proof. vm_compute. reflexivity. Qed.
+
+Example trailing_bytes_are_refused : is_refused (sent_frame ++ [0]) = true.
+Proof. vm_compute. reflexivity. Qed.
+
+Example each_damage_is_refused :
+  forallb is_refused
+    [damaged 0 [1] [2];                        (* another version *)
+     damaged 1 [7] [0];                        (* the reserved robot as sender *)
+     damaged 1 [7] [135; 0];                   (* a longer encoding of the same sender *)
+     damaged 2 [9] [5];                        (* a stamp among the genesis marks *)
+     damaged 2 [9] [8];                        (* a stamp that is not above all genes *)
+     damaged 3 [0; 0; 72; 66] [0; 0; 192; 127];  (* no number for an energy *)
+     damaged 3 [0; 0; 72; 66] [1; 0; 72; 67];  (* an energy beyond the limit *)
+     damaged 7 [37] [36];                      (* a payload length that is too small *)
+     damaged 8 [7] [0];                        (* a genome by the reserved robot *)
+     damaged 10 [4] [13];                      (* more neurons than the limit *)
+     damaged 10 [4; 4] [3; 5];                 (* a connection announced where a neuron is *)
+     damaged 12 [16] [0];                      (* a mark that is not above the one before *)
+     damaged 12 [16; 18] [18; 16];             (* an input after the bias *)
+     damaged 13 [18] [16];                     (* no bias *)
+     damaged 14 [20] [22];                     (* no output *)
+     damaged 16 [0; 2] [4; 2];                 (* a source that does not exist *)
+     damaged 16 [0; 2] [0; 1];                 (* a connection into the bias *)
+     damaged 16 [0; 2] [1; 2];                 (* the ends of another connection *)
+     damaged 18 [0; 0; 0; 63] [0; 0; 128; 127];  (* an infinite weight *)
+     damaged 29 [30; 7] [22];                  (* an initial gene beyond the genesis marks *)
+     damaged 30 [7] [0];                       (* a robot that is given again *)
+     damaged 31 [19] [3]]                      (* the mark of the neuron before it *)
+  = true.
+Proof. vm_compute. reflexivity. Qed.
+
+(** Limits may be infinite; numbers may not. *)
+Example infinity_is_never_within : map (fun bits => Wire.within bits (255 * 2 ^ 23))
+  [255 * 2 ^ 23 - 1; 255 * 2 ^ 23; 511 * 2 ^ 23; 2 ^ 31 - 1; 2 ^ 32 - 1]
+  = [true; false; false; false; false].
 Proof. reflexivity. Qed.

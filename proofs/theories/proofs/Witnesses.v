@@ -1,7 +1,7 @@
 (** For each claim an instance in which its hypotheses hold and its conclusion says something. *)
 From Coq Require Import NArith QArith List Sorting.Sorted.
 From GeneClocks Require Import Mark Alignment Clock Protocol Genome Recording.
-From GeneClocks Require Claims Trace Admission.
+From GeneClocks Require Claims Trace Admission Wire.
 From GeneClocks.proofs Require Import Order Merge Arithmetic Invariant Safety Durability Bounds
   Provenance Allowance Chain Crossover NoFalseAlarms TraceSafety.
 Import ListNotations.
@@ -469,3 +469,31 @@ Qed.
 Example trace_sends_survive_witness : nth_error recorded 2 = Some (Trace.Sends 7 5 4)
   /\ nth_error recorded 17 = Some (Trace.Restarts 7 8).
 Proof. split; reflexivity. Qed.
+
+(** ** The wire format *)
+
+(** A perceptron of two inputs that robot 7 has split, as docs/wire-format.md shows it. *)
+Definition wire_limits := Wire.Limits 400 5 12 12 1128792064 1092616192.
+Definition sent_message : Wire.message :=
+  let connection c r source target weight :=
+    Wire.Gene (Mark c r) (Wire.Connection true false source target weight) in
+  let neuron c r kind := Wire.Gene (Mark c r) (Wire.Neuron kind) in
+  Wire.Message 7 9 1112014848 (Wire.Genome 7 0
+    [neuron 1 0 Wire.Input; neuron 2 0 Wire.Bias; neuron 3 0 Wire.Output;
+     connection 4 0 0 2 1056964608; connection 5 0 1 2 3196059648;
+     neuron 6 7 Wire.Hidden; connection 7 7 0 3 1065353216; connection 8 7 3 2 1056964608]).
+Definition without_sum : list N :=
+  [1; 7; 9; 0; 0; 72; 66; 37; 7; 0; 4; 4; 16; 18; 20; 19; 0; 2; 0; 0; 0; 63; 19; 1; 2; 0; 0; 128;
+   190; 30; 7; 19; 0; 3; 0; 0; 128; 63; 19; 3; 2; 0; 0; 0; 63].
+Definition sent_frame : list N := without_sum ++ [39; 108; 11; 44].
+
+Example decode_encode_witness : Wire.encode wire_limits sent_message = Some sent_frame.
+Proof. vm_compute. reflexivity. Qed.
+
+Example decode_canonical_witness : Wire.decode wire_limits sent_frame = Some sent_message.
+Proof. vm_compute. reflexivity. Qed.
+
+Example decoded_is_in_order_witness :
+  map Wire.mark_of (Wire.genes (Wire.content sent_message))
+  = [Mark 1 0; Mark 2 0; Mark 3 0; Mark 4 0; Mark 5 0; Mark 6 7; Mark 7 7; Mark 8 7].
+Proof. reflexivity. Qed.

@@ -3,9 +3,9 @@
  *
  * A genome goes over the wire as one list of genes in the order of their marks, neurons and
  * connections together: so order, uniqueness, what lies below the stamp and that a connection's
- * neurons precede it are all checked gene by gene, with no more memory than the neurons that each
- * connection joins. Reader and writer share one set of checks, so that what can be written is
- * exactly what can be read.
+ * neurons precede it are all checked gene by gene, with no more memory than a set of the pairs of
+ * neurons that are joined. Reader and writer share one set of checks, so that what can be written
+ * is exactly what can be read.
  *
  * No allocation, no I/O, no global state, no floating-point arithmetic.
  */
@@ -74,16 +74,23 @@ enum {
     gene_clocks_connection_bytes_min = 1 + 1 + 1 + 4
 };
 
+/* The words of scratch memory that checking up to `connections` connections takes. A macro, so
+ * that firmware can have it in an array. */
+#define GENE_CLOCKS_JOINED_WORDS(connections) (4 * (size_t)(connections))
+
 /* ---- The checks ----------------------------------------------------------------------------- */
 
 /* A genome so far: what decides whether a gene may come next.
  *
  * Invariants: all marks so far are at most `last`, which is below the stamp; inputs and bias are
  * the first `inputs` neurons, the `outputs` come right after them, all of them before any
- * connection; `ends` holds those of all connections so far. */
+ * connection; `joined` holds the ends of all connections so far. */
 struct gene_clocks_genome_checks {
     const struct gene_clocks_wire_limits* limits;
-    struct gene_clocks_ends* ends; /* the caller's: room for limits->connections */
+    /* A hash table with linear probing, the caller's memory. Its size is a power of two, and at
+     * least twice the connections that were announced, so that a free place is always near. */
+    uint32_t* joined;
+    uint32_t joined_mask;
     uint64_t stamp;
     GENE_CLOCKS_MARK last; /* <0, 0> before the first gene */
     struct gene_clocks_genome genome;
@@ -93,6 +100,36 @@ struct gene_clocks_genome_checks {
     uint16_t outputs;
     bool has_bias;
 };
+
+/* No pair of neurons is packed to this: indices are below 65535, the most neurons there can be. */
+#define GENE_CLOCKS_NOT_JOINED 0xffffffffu
+
+/* Begins to check a genome with these counts, which are within the limits. */
+GENE_CLOCKS_FUNCTION struct gene_clocks_genome_checks gene_clocks_start_checks(
+    struct gene_clocks_genome genome, uint64_t stamp, const struct gene_clocks_wire_limits* limits,
+    uint32_t* joined) {
+    uint32_t size = 1;
+    while (size < 2u * genome.connections) size *= 2;
+    if (genome.connections > 0) {
+        for (uint32_t i = 0; i < size; ++i) joined[i] = GENE_CLOCKS_NOT_JOINED;
+    }
+    const struct gene_clocks_genome_checks checks = {
+        limits, joined, size - 1, stamp, {0, 0}, genome, 0, 0, 0, 0, false};
+    return checks;
+}
+
+/* Notes that a connection joins these neurons; false where one does already. */
+GENE_CLOCKS_FUNCTION bool gene_clocks_join(const struct gene_clocks_genome_checks* checks,
+                                           struct gene_clocks_ends ends) {
+    const uint32_t pair = (uint32_t)ends.source << 16 | ends.target;
+    uint32_t place = (pair * 0x9e3779b9u >> 12) & checks->joined_mask;
+    while (checks->joined[place] != GENE_CLOCKS_NOT_JOINED) {
+        if (checks->joined[place] == pair) return false;
+        place = (place + 1) & checks->joined_mask;
+    }
+    checks->joined[place] = pair;
+    return true;
+}
 
 GENE_CLOCKS_FUNCTION enum gene_clocks_wire_error gene_clocks_check_mark(
     const struct gene_clocks_genome_checks* checks, GENE_CLOCKS_MARK mark) {
@@ -124,15 +161,11 @@ GENE_CLOCKS_FUNCTION enum gene_clocks_wire_error gene_clocks_check_connection(
         ends.target < checks->inputs) {
         return gene_clocks_wire_ends;
     }
-    bool is_repeated = false; /* no early exit: the loop is short, and this way it is vectorised */
-    for (size_t i = 0; i < checks->connections; ++i) {
-        is_repeated |=
-            checks->ends[i].source == ends.source && checks->ends[i].target == ends.target;
-    }
-    if (is_repeated) return gene_clocks_wire_repeated_ends;
     if (!gene_clocks_is_within(GENE_CLOCKS_BITS_OF(gene->weight), checks->limits->weight)) {
         return gene_clocks_wire_weight;
     }
+    /* Last, since it notes the pair. */
+    if (!gene_clocks_join(checks, ends)) return gene_clocks_wire_repeated_ends;
     return gene_clocks_wire_ok;
 }
 
@@ -144,7 +177,7 @@ GENE_CLOCKS_FUNCTION enum gene_clocks_wire_error gene_clocks_add_gene(
     if (gene->kind == gene_clocks_connection) {
         error = gene_clocks_check_connection(checks, gene);
         if (error) return error;
-        checks->ends[checks->connections++] = gene->ends;
+        ++checks->connections;
     } else {
         error = gene_clocks_check_neuron(checks, gene);
         if (error) return error;
@@ -179,11 +212,11 @@ struct gene_clocks_genome_reader {
 
 /* Begins to read a payload: its identity and its counts, which are then in
  * reader->checks.genome, within the limits and not more than the bytes can hold. `stamp` is that
- * of the frame. `ends` has room for limits->connections; it, `limits` and `bytes` must outlive the
- * reader. */
+ * of the frame. `joined` is scratch memory of GENE_CLOCKS_JOINED_WORDS(limits->connections) words;
+ * it, `limits` and `bytes` must outlive the reader. */
 GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_open_genome(
     struct gene_clocks_genome_reader* reader, const uint8_t* bytes, size_t size, uint64_t stamp,
-    const struct gene_clocks_wire_limits* limits, struct gene_clocks_ends* ends) {
+    const struct gene_clocks_wire_limits* limits, uint32_t* joined) {
     const unsigned bits[4] = {32, 32, 16, 16};
     uint64_t fields[4] = {0, 0, 0, 0};
     reader->bytes.bytes = bytes;
@@ -209,9 +242,7 @@ GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_open_genome(
     }
     const struct gene_clocks_genome genome = {(uint32_t)fields[0], (uint32_t)fields[1],
                                               (uint16_t)fields[2], (uint16_t)fields[3]};
-    const struct gene_clocks_genome_checks checks = {limits, ends, stamp, {0, 0}, genome,
-                                                     0,      0,    0,     0,      false};
-    reader->checks = checks;
+    reader->checks = gene_clocks_start_checks(genome, stamp, limits, joined);
     return gene_clocks_fault_at(gene_clocks_wire_ok, 0);
 }
 
@@ -321,16 +352,16 @@ GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_close_genome(
 }
 
 /* Reads a whole genome into arrays: `genes` has room for limits->neurons + limits->connections,
- * `ends` is scratch memory for limits->connections. Where it is refused, `genome` does not change
- * and the arrays hold nothing of meaning. */
+ * `joined` is scratch memory as above. Where it is refused, `genome` does not change and the arrays
+ * hold nothing of meaning. */
 GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_decode_genome(
     const uint8_t* payload, size_t size, uint64_t stamp,
     const struct gene_clocks_wire_limits* limits, struct gene_clocks_genome* genome,
-    struct gene_clocks_gene* genes, struct gene_clocks_ends* ends) {
+    struct gene_clocks_gene* genes, uint32_t* joined) {
     struct gene_clocks_genome_reader reader = {
-        {NULL, 0, 0}, {NULL, NULL, 0, {0, 0}, {0, 0, 0, 0}, 0, 0, 0, 0, false}};
+        {NULL, 0, 0}, {NULL, NULL, 0, 0, {0, 0}, {0, 0, 0, 0}, 0, 0, 0, 0, false}};
     struct gene_clocks_fault fault =
-        gene_clocks_open_genome(&reader, payload, size, stamp, limits, ends);
+        gene_clocks_open_genome(&reader, payload, size, stamp, limits, joined);
     if (fault.error) return fault;
     while (gene_clocks_genes_left(&reader) > 0) {
         fault = gene_clocks_next_gene(&reader, genes++);
@@ -348,21 +379,19 @@ struct gene_clocks_genome_writer {
     struct gene_clocks_genome_checks checks;
 };
 
-/* Begins to write a genome with `genome`'s identity and counts, to travel with `stamp`. `ends` as
+/* Begins to write a genome with `genome`'s identity and counts, to travel with `stamp`. `joined` as
  * for reading. With a capacity of 0, where `buffer` may be null, the size is found. */
 GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_begin_genome(
     struct gene_clocks_genome_writer* writer, uint8_t* buffer, size_t capacity,
     struct gene_clocks_genome genome, uint64_t stamp, const struct gene_clocks_wire_limits* limits,
-    struct gene_clocks_ends* ends) {
+    uint32_t* joined) {
     const struct gene_clocks_writer bytes = {buffer, capacity, 0};
-    const struct gene_clocks_genome_checks checks = {limits, ends, stamp, {0, 0}, genome,
-                                                     0,      0,    0,     0,      false};
-    writer->bytes = bytes;
-    writer->checks = checks;
     if (genome.robot == 0) return gene_clocks_fault_at(gene_clocks_wire_robot, 0);
     if (genome.neurons > limits->neurons || genome.connections > limits->connections) {
         return gene_clocks_fault_at(gene_clocks_wire_too_many_genes, 0);
     }
+    writer->bytes = bytes;
+    writer->checks = gene_clocks_start_checks(genome, stamp, limits, joined);
     gene_clocks_put_varint(&writer->bytes, genome.robot);
     gene_clocks_put_varint(&writer->bytes, genome.birth);
     gene_clocks_put_varint(&writer->bytes, genome.neurons);

@@ -108,7 +108,7 @@ struct WireLimits {
     std::uint32_t frame_bytes = 65'507;  ///< of a frame; by default what a UDP datagram holds
     std::uint64_t genesis_count = 0;     ///< genesis marks 1…genesis_count, the same in the fleet
     std::uint16_t neurons = 1024;        ///< neuron genes of a genome
-    std::uint16_t connections = 1024;    ///< connection genes; checking them is O(connections²)
+    std::uint16_t connections = 1024;    ///< connection genes of a genome
     float energy = std::numeric_limits<float>::max();  ///< magnitude; not negative
     float weight = std::numeric_limits<float>::max();  ///< magnitude; not negative
 

@@ -200,9 +200,9 @@ class Genome:
         source, target = gene["source"], gene["target"]
         if max(source, target) >= len(self.kinds) or self.kinds[target] in ("input", "bias"):
             return "ends"
-        if (source, target) in self.joined:
-            return "repeated_ends"
         if not float_is_within(gene["weight_bits"], self.limits.weight_bits):
             return "weight"
+        if (source, target) in self.joined:
+            return "repeated_ends"
         self.joined.add((source, target))
         return None

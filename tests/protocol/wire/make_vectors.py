@@ -343,6 +343,8 @@ def refused_genomes():
                  [counts(3, 2), *PERCEPTRON[:4], b"\x13", HERE, b"\x80\x80\x04", b"\x02", word(0)])
     yield genome("a target with a superfluous byte", "not_shortest",
                  [counts(3, 2), *PERCEPTRON[:4], b"\x13\x01", HERE, b"\x82\x00", word(0)])
+    yield genome("the same ends twice, and no number for a weight", "weight",
+                 [counts(3, 2), *PERCEPTRON[:4], HERE, connection(1, 0, 2, word(0x7FC00000))])
     for name, value in (("NaN", 0x7FC00000), ("infinity", 0x7F800000),
                         ("minus infinity", 0xFF800000),
                         ("the next number after the limit", 0x41200001),

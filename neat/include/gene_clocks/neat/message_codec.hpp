@@ -54,8 +54,8 @@ private:
     std::vector<kernel::gene_clocks_gene> initial_genes_;  // in the order of marks
     WireLimits limits_;
     kernel::gene_clocks_wire_limits kernel_limits_;
-    std::vector<kernel::gene_clocks_ends> ends_;  // scratch: as many as limits_.connections
-    std::vector<std::uint8_t> buffer_;            // scratch: the frame that was written last
+    std::vector<std::uint32_t> joined_;  // scratch, for the checks
+    std::vector<std::uint8_t> buffer_;   // scratch: the frame that was written last
 };
 
 }  // namespace gene_clocks::neat
