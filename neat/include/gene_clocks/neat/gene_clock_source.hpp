@@ -9,7 +9,7 @@ namespace gene_clocks::neat {
 ///
 /// Its counter lives in memory only, and it trusts whom it hears: for simulations. A robot uses
 /// DurableGeneClockSource.
-class GeneClockSource final : public InnovationSource {
+class GeneClockSource : public InnovationSource {
 public:
     /// Preconditions: those of GeneClock.
     GeneClockSource(RobotId robot, std::uint64_t genesis_count, GeneClock::Limits limits = {})
