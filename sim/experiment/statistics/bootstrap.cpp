@@ -1,33 +1,14 @@
 #include "bootstrap.hpp"
 
-#include <boost/random/uniform_int_distribution.hpp>
 #include <random>
 #include <stdexcept>
 #include <vector>
 
-#include "finite_sample.hpp"
 #include "quantiles.hpp"
+#include "resampler.hpp"
 
 namespace gene_clocks::statistics {
 namespace {
-
-/// Draws samples of the same size, with replacement.
-class Resampler {
-public:
-    explicit Resampler(std::span<const double> sample) : sample_(sample), drawn_(sample.size()) {
-        require_finite(sample);
-    }
-
-    std::span<const double> draw(std::mt19937_64& random) {
-        const boost::random::uniform_int_distribution<std::size_t> index(0, sample_.size() - 1);
-        for (double& value : drawn_) value = sample_[index(random)];
-        return drawn_;
-    }
-
-private:
-    std::span<const double> sample_;
-    std::vector<double> drawn_;
-};
 
 template <typename Draw>
 Interval percentile_interval(const BootstrapSettings& settings, Draw&& draw_statistic) {
@@ -45,7 +26,7 @@ Interval percentile_interval(const BootstrapSettings& settings, Draw&& draw_stat
 
 Interval bootstrap_interval(std::span<const double> sample, const Statistic& statistic,
                             const BootstrapSettings& settings) {
-    Resampler resampler(sample);
+    Resampler resampler(sample, sample.size());
     return percentile_interval(
         settings, [&](std::mt19937_64& random) { return statistic(resampler.draw(random)); });
 }
@@ -53,8 +34,8 @@ Interval bootstrap_interval(std::span<const double> sample, const Statistic& sta
 Interval bootstrap_interval(std::span<const double> x, std::span<const double> y,
                             const TwoSampleStatistic& statistic,
                             const BootstrapSettings& settings) {
-    Resampler of_x(x);
-    Resampler of_y(y);
+    Resampler of_x(x, x.size());
+    Resampler of_y(y, y.size());
     return percentile_interval(settings, [&](std::mt19937_64& random) {
         const std::span<const double> drawn_x = of_x.draw(random);
         return statistic(drawn_x, of_y.draw(random));

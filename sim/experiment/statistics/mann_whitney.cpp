@@ -5,6 +5,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <vector>
 
 #include "finite_sample.hpp"
@@ -70,37 +71,73 @@ std::vector<Count> arrangements(std::size_t n, std::size_t m) {
     return count;
 }
 
-double exact_p_value(double u, std::size_t n, std::size_t m) {
-    const std::vector<Count> count = arrangements(n, m);
-    const auto u_integer = static_cast<std::size_t>(u);  // no ties: an integer
-    const std::size_t smaller = std::min(u_integer, n * m - u_integer);
-    Count tail = 0;
-    Count all = 0;
-    for (std::size_t i = 0; i < count.size(); ++i) {
-        all += count[i];
-        if (i <= smaller) tail += count[i];
-    }
-    return std::min(1.0, 2.0 * (tail.convert_to<double>() / all.convert_to<double>()));
+/// Of the two one-sided p-values, "less" and "greater", the one asked for; two-sided, twice the
+/// smaller.
+double choose(double less, double greater, Alternative alternative) {
+    if (alternative == Alternative::less) return less;
+    if (alternative == Alternative::greater) return greater;
+    return std::min(1.0, 2.0 * std::min(less, greater));
 }
 
-double normal_p_value(const Ranking& ranking, double n, double m) {
+double exact_p_value(double u, std::size_t n, std::size_t m, Alternative alternative) {
+    const std::vector<Count> count = arrangements(n, m);
+    const auto observed = static_cast<std::size_t>(u);  // no ties: an integer
+    const auto tail = [&](std::size_t largest) {
+        Count sum = 0;
+        for (std::size_t i = 0; i <= largest; ++i) sum += count[i];
+        return sum.convert_to<double>();
+    };
+    const double all = tail(n * m);
+    // The distribution is symmetric: U is as likely to be at least u as to be at most nm - u.
+    return choose(tail(observed) / all, tail(n * m - observed) / all, alternative);
+}
+
+double normal_p_value(const Ranking& ranking, double n, double m, Alternative alternative) {
     const double variance =
         n * m / 12.0 * ((n + m + 1.0) - ranking.tie_term / ((n + m) * (n + m - 1.0)));
-    const double distance = std::fabs(ranking.u - n * m / 2.0);
-    if (!(variance > 0.0) || distance == 0.0) return 1.0;
-    const double z = (distance - 0.5) / std::sqrt(variance);
-    return std::min(1.0, 2.0 * boost::math::cdf(complement(boost::math::normal{}, z)));
+    if (!(variance > 0.0)) return 1.0;
+    const double deviation = ranking.u - n * m / 2.0;
+    const boost::math::normal standard;
+    const double less = boost::math::cdf(standard, (deviation + 0.5) / std::sqrt(variance));
+    const double greater =
+        boost::math::cdf(complement(standard, (deviation - 0.5) / std::sqrt(variance)));
+    return choose(less, greater, alternative);
 }
 
 }  // namespace
 
-MannWhitney mann_whitney(std::span<const double> x, std::span<const double> y) {
+MannWhitney mann_whitney(std::span<const double> x, std::span<const double> y,
+                         Alternative alternative) {
     const Ranking ranking = rank(x, y);
-    if (ranking.tie_term == 0.0 && x.size() < exact_limit && y.size() < exact_limit)
-        return {ranking.u, exact_p_value(ranking.u, x.size(), y.size()), NullDistribution::exact};
-    return {ranking.u,
-            normal_p_value(ranking, static_cast<double>(x.size()), static_cast<double>(y.size())),
-            NullDistribution::normal};
+    const std::size_t n = x.size();
+    const std::size_t m = y.size();
+    if (ranking.tie_term == 0.0 && n < exact_limit && m < exact_limit) {
+        return {ranking.u, exact_p_value(ranking.u, n, m, alternative), NullDistribution::exact};
+    }
+    const double p_value =
+        normal_p_value(ranking, static_cast<double>(n), static_cast<double>(m), alternative);
+    return {ranking.u, p_value, NullDistribution::normal};
+}
+
+std::size_t tail_statistic(std::size_t n, std::size_t m, double probability) {
+    if (n == 0 || m == 0) throw std::invalid_argument("a sample is empty");
+    if (!(probability > 0.0 && probability < 1.0))
+        throw std::invalid_argument("a probability lies outside (0, 1)");
+    if (n < exact_limit && m < exact_limit) {
+        const std::vector<Count> count = arrangements(n, m);
+        double all = 0.0;
+        for (const Count& of_u : count) all += of_u.convert_to<double>();
+        double sum = 0.0;
+        std::size_t u = 0;
+        // As qwilcox does, a probability that rounding alone puts short of the sum counts as met.
+        while ((sum += count[u].convert_to<double>()) < all * probability * (1.0 - 1e-14)) ++u;
+        return u;
+    }
+    const double product = static_cast<double>(n) * static_cast<double>(m);
+    const double deviation = std::sqrt(product * static_cast<double>(n + m + 1) / 12.0);
+    const boost::math::normal standard;
+    const double u = product / 2.0 + boost::math::quantile(standard, probability) * deviation;
+    return static_cast<std::size_t>(std::clamp(std::ceil(u), 0.0, product));
 }
 
 double vargha_delaney_a(std::span<const double> x, std::span<const double> y) {

@@ -49,6 +49,23 @@ mann_whitney <- do.call(rbind, lapply(names(pairs), function(name) {
   )
 }))
 
+# Two one-sided tests and intervals of the same pairs. R shifts x by its argument mu.
+equivalence <- do.call(rbind, lapply(names(pairs), function(name) {
+  x <- pairs[[name]]$x
+  y <- pairs[[name]]$y
+  margin <- 0.05 * max(abs(mean(y)), 0.5)
+  above <- suppressWarnings(wilcox.test(x, y, mu = -margin, alternative = "greater"))
+  below <- suppressWarnings(wilcox.test(x, y, mu = margin, alternative = "less"))
+  test <- suppressWarnings(wilcox.test(x, y, conf.int = TRUE, conf.level = 0.9))
+  data.frame(
+    case = name, x = digits(x), y = digits(y), margin = sprintf("%.17g", margin),
+    greater = sprintf("%.17g", above$p.value), less = sprintf("%.17g", below$p.value),
+    shift = sprintf("%.17g", median(outer(x, y, "-"))),
+    lower = sprintf("%.17g", test$conf.int[1]), upper = sprintf("%.17g", test$conf.int[2]),
+    exact = as.integer(grepl("exact", test$method))
+  )
+}))
+
 samples <- list(
   one = 3.25, two = c(7, -1), equal = rep(0.1, 6), odd = rnorm(31), even = rnorm(64, 160, 19),
   ties = sample(1:5, 20, TRUE), outliers = c(rnorm(12), 40, -35)
@@ -63,8 +80,20 @@ quantiles <- do.call(rbind, lapply(names(samples), function(name) {
   )
 }))
 
+families <- list(
+  one = 0.03, ascending = c(0.001, 0.01, 0.02, 0.04), descending = c(0.9, 0.5, 0.04, 0.002),
+  ties = c(0.02, 0.02, 0.5, 0.02), capped = c(0.6, 0.7, 0.8), extremes = c(0, 1, 0.5),
+  many = runif(40)^3
+)
+holm <- do.call(rbind, lapply(names(families), function(name) {
+  data.frame(case = name, p_values = digits(families[[name]]),
+             corrected = digits(p.adjust(families[[name]], "holm")))
+}))
+
 save <- function(frame, name) {
   write.csv(frame, file.path(folder, name), row.names = FALSE, quote = FALSE)
 }
 save(mann_whitney, "mann_whitney.csv")
+save(equivalence, "equivalence.csv")
+save(holm, "holm.csv")
 save(quantiles, "quantiles.csv")

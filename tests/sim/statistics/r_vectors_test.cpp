@@ -1,43 +1,14 @@
 // The test vectors come from R: make_vectors.R beside this file writes them.
+#include "r_vectors.hpp"
+
 #include <gtest/gtest.h>
 
-#include <boost/algorithm/string.hpp>
-#include <cmath>
-#include <fstream>
-#include <string>
-#include <vector>
-
+#include "statistics/equivalence.hpp"
 #include "statistics/mann_whitney.hpp"
 #include "statistics/quantiles.hpp"
 
 namespace gene_clocks::statistics {
 namespace {
-
-std::vector<std::vector<std::string>> read_rows(const std::string& name, std::size_t columns) {
-    std::ifstream file(std::string(VECTORS_FOLDER "/") + name);
-    std::vector<std::vector<std::string>> rows;
-    std::string line;
-    std::getline(file, line);  // the header
-    while (std::getline(file, line)) {
-        std::vector<std::string>& row = rows.emplace_back();
-        boost::split(row, line, boost::is_any_of(","));
-        EXPECT_EQ(row.size(), columns) << name << ": " << line;
-    }
-    return rows;
-}
-
-std::vector<double> numbers(const std::string& text) {
-    std::vector<std::string> words;
-    boost::split(words, text, boost::is_any_of(" "));
-    std::vector<double> values;
-    for (const std::string& word : words) values.push_back(std::stod(word));
-    return values;
-}
-
-void expect_close(double value, double expected, const std::string& what) {
-    EXPECT_LE(std::fabs(value - expected), 1e-12 * std::fabs(expected))
-        << what << ": " << value << " against R's " << expected;
-}
 
 TEST(RVectors, MannWhitneyEqualsWilcoxTest) {
     const auto rows = read_rows("mann_whitney.csv", 7);
@@ -62,6 +33,55 @@ TEST(RVectors, QuantilesEqualType7) {
     ASSERT_GE(rows.size(), 70U);
     for (const auto& row : rows)
         expect_close(quantile(numbers(row[1]), std::stod(row[2])), std::stod(row[3]), row[0]);
+}
+
+TEST(RVectors, OneSidedTestsEqualWilcoxTest) {
+    const auto rows = read_rows("equivalence.csv", 10);
+    ASSERT_GE(rows.size(), 21U);
+    for (const auto& row : rows) {
+        const double margin = std::stod(row[3]);
+        std::vector<double> up = numbers(row[1]);
+        std::vector<double> down = up;
+        for (double& value : up) value += margin;
+        for (double& value : down) value -= margin;
+        const std::vector<double> y = numbers(row[2]);
+        const double greater = mann_whitney(up, y, Alternative::greater).p_value;
+        const double less = mann_whitney(down, y, Alternative::less).p_value;
+        expect_close(greater, std::stod(row[4]), row[0] + ", greater");
+        expect_close(less, std::stod(row[5]), row[0] + ", less");
+        EXPECT_EQ(equivalence_p_value(numbers(row[1]), y, margin), std::max(greater, less))
+            << row[0];
+    }
+}
+
+TEST(RVectors, ShiftsEqualWilcoxTest) {
+    for (const auto& row : read_rows("equivalence.csv", 10)) {
+        const Shift shift = shift_of_location(numbers(row[1]), numbers(row[2]), 0.9);
+        expect_close(shift.estimate, std::stod(row[6]), row[0]);
+        const double lower = std::stod(row[7]);
+        const double upper = std::stod(row[8]);
+        if (row[9] == "1") {
+            expect_close(shift.interval.lower, lower, row[0]);
+            expect_close(shift.interval.upper, upper, row[0]);
+        } else {
+            // R seeks the ends by iteration, and corrects the variance for ties at each step.
+            const double tolerance = 0.02 * (upper - lower) + 1e-3;
+            EXPECT_NEAR(shift.interval.lower, lower, tolerance) << row[0];
+            EXPECT_NEAR(shift.interval.upper, upper, tolerance) << row[0];
+        }
+    }
+}
+
+TEST(RVectors, HolmEqualsPAdjust) {
+    const auto rows = read_rows("holm.csv", 3);
+    ASSERT_GE(rows.size(), 7U);
+    for (const auto& row : rows) {
+        const std::vector<double> corrected = holm(numbers(row[1]));
+        const std::vector<double> expected = numbers(row[2]);
+        ASSERT_EQ(corrected.size(), expected.size());
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            expect_close(corrected[i], expected[i], row[0]);
+    }
 }
 
 }  // namespace
