@@ -39,7 +39,7 @@ Shift shift_of_location(std::span<const double> x, std::span<const double> y, do
     if (!(confidence > 0.0 && confidence < 1.0))
         throw std::invalid_argument("a confidence lies outside (0, 1)");
     const std::vector<double> all = differences(x, y);
-    // As many differences are cut off at each end as leave their Mann–Whitney statistic in its tail.
+    // As many differences are cut off at each end as leave their statistic in its tail.
     const std::size_t cut = tail_statistic(x.size(), y.size(), 0.5 * (1.0 - confidence));
     const std::size_t lower = std::min(std::max<std::size_t>(cut, 1) - 1, all.size() - 1);
     return {median(all), {all[lower], all[all.size() - 1 - lower]}};
