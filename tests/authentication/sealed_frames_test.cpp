@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "support/property.hpp"
+#include "support/wire_vectors.hpp"
 
 namespace gene_clocks::authentication {
 namespace {
@@ -67,6 +69,35 @@ TEST_F(SealedFrames, HaveTheTagOfBlake2b) {
     const Bytes expected{0x81, 0x01, 0x61, 0x62, 0x63, 0x2a, 0x06, 0x7d, 0xc5, 0xef, 0x6b,
                          0x63, 0x4e, 0x5f, 0xcc, 0xf7, 0xd1, 0x63, 0x79, 0xc5, 0xa9};
     EXPECT_EQ(sealed, expected);
+}
+
+TEST(SealedFramesVectors, AreOpenedRefusedAndSealedAsTheFileSays) {
+    const test::WireVectors vectors = test::read_wire_vectors(GENE_CLOCKS_WIRE_VECTORS);
+    Key key;
+    ASSERT_EQ(vectors.key.size(), key.size());
+    std::copy(vectors.key.begin(), vectors.key.end(), key.begin());
+    std::size_t opened = 0;
+    for (const auto& vector : vectors.sealed) {
+        SCOPED_TRACE(vector["name"]);
+        const Bytes sealed = test::from_hex(vector["sealed"].get<std::string>());
+        Opener opener{key, vectors.limits};
+        if (vector.contains("refusal")) {
+            EXPECT_EQ(outcome(opener, sealed), vector["refusal"].get<std::string>());
+            EXPECT_TRUE(opener.windows().empty());
+            continue;
+        }
+        ++opened;
+        const auto number = vector["number"].get<std::uint64_t>();
+        const Bytes frame = test::from_hex(vector["frame"].get<std::string>());
+        EXPECT_EQ(outcome(opener, sealed), "opened");
+        ASSERT_EQ(opener.windows().size(), 1u);
+        EXPECT_EQ(opener.windows().begin()->second.highest, number);
+        if (number == std::numeric_limits<std::uint64_t>::max()) continue;  // no clock gets there
+        Sealer sealer{key, GeneClock{RobotId{1}, number - 1}};
+        EXPECT_EQ(seal(sealer, frame), sealed);
+    }
+    EXPECT_GE(opened, 4u);
+    EXPECT_GE(vectors.sealed.size() - opened, 15u);
 }
 
 TEST_F(SealedFrames, AreForgedWithoutTheKey) {

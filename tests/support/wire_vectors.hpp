@@ -19,6 +19,8 @@ namespace gene_clocks::test {
 struct WireVectors {
     WireLimits limits;
     std::vector<nlohmann::json> all;
+    std::vector<nlohmann::json> sealed;
+    std::vector<std::uint8_t> key;  // of the sealed frames
 };
 
 inline std::vector<std::uint8_t> from_hex(std::string_view text) {
@@ -74,7 +76,9 @@ inline WireVectors read_wire_vectors(const std::string& path) {
     return {
         {limits["frame_bytes"], limits["genesis_count"], limits["neurons"], limits["connections"],
          float_of(limits["energy_bits"]), float_of(limits["weight_bits"])},
-        document["vectors"]};
+        document["vectors"],
+        document["sealed"],
+        from_hex(document["key"].get<std::string>())};
 }
 
 }  // namespace gene_clocks::test

@@ -5,8 +5,10 @@
 
 Frames are put together here field by field, by an encoder that shares nothing with the library's; the
 error and offset that a decoder must report stand beside each damaged one. Floats are given by their bits.
+Sealed frames stand apart, with the key that seals them.
 """
 
+import hashlib
 import json
 import struct
 
@@ -361,12 +363,67 @@ def refused_genomes():
                  [counts(3, 2), *PERCEPTRON, HERE, neuron(1, "hidden", robot=7)])
 
 
+# ---- Sealed frames ---------------------------------------------------------------------------------
+
+KEY = bytes(range(32))
+
+
+def tag(data, key=KEY):
+    return hashlib.blake2b(data, digest_size=16, key=key).digest()
+
+
+def seal(inner, number=varint(1), version=b"\x81"):
+    data = version + number + inner
+    return data + tag(data)
+
+
+def sealed_vectors():
+    inner = join(frame([counts(3, 2), *PERCEPTRON]))[0]
+
+    def opened(name, number, inner):
+        return {"name": name, "sealed": seal(inner, varint(number)).hex(), "number": number,
+                "frame": inner.hex()}
+
+    def refused(name, refusal, sealed):
+        return {"name": name, "sealed": sealed.hex(), "refusal": refusal}
+
+    yield opened("the first number", 1, inner)
+    yield opened("a number of two bytes", 300, inner)
+    yield opened("the largest number", MAX_COUNTER, inner)
+    yield opened("a payload that is no genome", 301, join(frame([b"\xff"]))[0])
+    data = seal(inner)[:-16]
+    yield refused("no bytes", "forged", b"")
+    yield refused("less than a tag", "forged", tag(b"")[:15])
+    yield refused("a bare frame", "forged", inner)
+    yield refused("another key", "forged", data + tag(data, KEY[::-1]))
+    yield refused("no key", "forged", data + tag(data, b""))
+    yield refused("the first half of a longer tag", "forged",
+                  data + hashlib.blake2b(data, key=KEY).digest()[:16])
+    yield refused("a tag of the frame alone", "forged", data + tag(inner))
+    yield refused("another number under the tag", "forged",
+                  seal(inner, varint(2))[:-16] + tag(data))
+    longest = b"\x81" + varint(MAX_COUNTER) + bytes(LIMITS["frame_bytes"] + 1)
+    yield refused("one byte more than any sealed frame has", "forged", longest + tag(longest))
+    yield refused("a frame longer than the limit", "malformed", seal(bytes(LIMITS["frame_bytes"] + 1)))
+    yield refused("nothing but a tag", "malformed", tag(b""))
+    yield refused("another version", "malformed", seal(inner, version=b"\x82"))
+    yield refused("number 0", "malformed", seal(inner, varint(0)))
+    yield refused("a number with a superfluous byte", "malformed", seal(inner, b"\x81\x00"))
+    yield refused("a number of 65 bits", "malformed", seal(inner, b"\xff" * 9 + b"\x02"))
+    yield refused("no number", "malformed", seal(b"", b""))
+    yield refused("no frame", "malformed", seal(b""))
+    yield refused("a frame with a wrong checksum", "malformed", seal(inner[:-1] + b"\x00"))
+    yield refused("a sealed frame, sealed again", "malformed", seal(seal(inner)))
+
+
 def main():
     vectors = [*valid_vectors(), *refused_frames(), *refused_genomes()]
     names = [vector["name"] for vector in vectors]
     assert len(names) == len(set(names)), "names are unique"
-    lines = ",\n".join("  " + json.dumps(vector) for vector in vectors)
-    print(f'{{"limits": {json.dumps(LIMITS)},\n"vectors": [\n{lines}\n]}}')
+    lines, sealed_lines = (",\n".join("  " + json.dumps(vector) for vector in some)
+                           for some in (vectors, sealed_vectors()))
+    print(f'{{"limits": {json.dumps(LIMITS)},\n"vectors": [\n{lines}\n],\n'
+          f'"key": "{KEY.hex()}",\n"sealed": [\n{sealed_lines}\n]}}')
 
 
 if __name__ == "__main__":
