@@ -56,6 +56,8 @@ public:
     /// Both references must outlive the reader.
     TableReader(const Document& document, const toml::table& table, std::string path = {});
 
+    /// Whatever stands under that key; null where nothing does.
+    const toml::node* find(const std::string& key);
     std::optional<std::string> text(const std::string& key);
     std::optional<double> real(const std::string& key, const Range& range);
     std::optional<std::int64_t> integer(const std::string& key, const Range& range);
@@ -76,7 +78,6 @@ public:
     [[nodiscard]] InputError error(const std::string& key, const std::string& message) const;
 
 private:
-    const toml::node* find(const std::string& key);
     [[nodiscard]] std::string full(const std::string& key) const;
 
     const Document& document_;

@@ -44,17 +44,6 @@ bool is_table_of_settings(std::string_view name) {
                                [&](const Setting& setting) { return setting.table() == name; });
 }
 
-void read_one(const Document& document, const std::string& key, const toml::key& toml_key,
-              const toml::node& node, sim::Settings& settings) {
-    const Setting& setting = known_setting(key, document.place_of(toml_key));
-    Value value = checked_value(setting, node, document.place_of(node));
-    if (setting.key == "world.arena") {
-        auto& name = std::get<std::string>(value);
-        if (is_file_name(name)) name = (document.directory / name).lexically_normal().string();
-    }
-    setting.set(settings, value);
-}
-
 /// One TOML value as text, as in "0.25" or "\"gecco15\"": numbers with no more digits than it takes
 /// to read the same number back.
 std::string toml_text(const Value& value) {
@@ -125,11 +114,16 @@ bool is_canonical(const Setting& setting) {
 
 }  // namespace
 
-void read_settings(const Document& document, const toml::table& table, sim::Settings& settings) {
+std::vector<KeyedNode> flatten(const Document& document, const toml::table& table) {
+    std::vector<std::pair<toml::source_position, KeyedNode>> found;
+    const auto add = [&](std::string name, const toml::key& key, const toml::node& value) {
+        found.emplace_back(key.source().begin,
+                           KeyedNode{std::move(name), document.place_of(key), &value});
+    };
     for (const auto& [key, node] : table) {
         const std::string name(key.str());
         if (!is_table_of_settings(name)) {
-            read_one(document, name, key, node, settings);
+            add(name, key, node);
             continue;
         }
         const toml::table* inner = node.as_table();
@@ -138,10 +132,31 @@ void read_settings(const Document& document, const toml::table& table, sim::Sett
                             "is the name of a table of settings, not of a setting");
         }
         for (const auto& [inner_key, inner_node] : *inner) {
-            read_one(document, name + "." + std::string(inner_key.str()), inner_key, inner_node,
-                     settings);
+            add(name + "." + std::string(inner_key.str()), inner_key, inner_node);
         }
     }
+    std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<KeyedNode> nodes;
+    for (auto& [position, node] : found) nodes.push_back(std::move(node));
+    return nodes;
+}
+
+void check_setting_key(const std::string& key, const Place& place) {
+    known_setting(key, place);
+}
+
+void read_setting(const Document& document, const KeyedNode& node, sim::Settings& settings) {
+    const Setting& setting = known_setting(node.key, node.place);
+    Value value = checked_value(setting, *node.value, document.place_of(*node.value));
+    if (setting.key == "world.arena") {
+        auto& name = std::get<std::string>(value);
+        if (is_file_name(name)) name = (document.directory / name).lexically_normal().string();
+    }
+    setting.set(settings, value);
+}
+
+void read_settings(const Document& document, const toml::table& table, sim::Settings& settings) {
+    for (const KeyedNode& node : flatten(document, table)) read_setting(document, node, settings);
 }
 
 void assign(sim::Settings& settings, std::string_view assignment) {

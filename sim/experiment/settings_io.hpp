@@ -13,6 +13,23 @@
 
 namespace gene_clocks::experiment {
 
+/// A setting's key in a TOML text, and what stands there.
+struct KeyedNode {
+    std::string key;                    ///< with its table, as in "radio.loss"
+    Place place;                        ///< of the key
+    const toml::node* value = nullptr;  ///< never null; the document's
+};
+
+/// The keys in a table of settings and in its tables, in the order of the text, known ones or not.
+/// Throws InputError where the name of a table of settings stands for something else.
+std::vector<KeyedNode> flatten(const Document& document, const toml::table& table);
+
+/// Throws InputError, with a suggestion, for a key that is no setting's.
+void check_setting_key(const std::string& key, const Place& place);
+
+/// Takes over one setting; as read_settings.
+void read_setting(const Document& document, const KeyedNode& node, sim::Settings& settings);
+
 /// Takes over the settings in a TOML table whose keys are those of `settings_table()`.
 /// The path of an arena's file is taken from the document's folder.
 /// Throws InputError, with file, line and key: unknown keys (with a suggestion), wrong types and

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <set>
 #include <utility>
 
 #include "arena_file.hpp"
+#include "arm_lists.hpp"
 #include "choice_names.hpp"
 #include "profile.hpp"
 #include "settings_io.hpp"
@@ -25,25 +26,40 @@ struct Common {
 };
 
 template <typename Choice>
-Choice read_choice(TableReader& reader, const std::string& key) {
-    const std::string text = reader.required_text(key);
+Choice read_choice(const Document& document, const KeyedNode& node) {
+    const Place place = document.place_of(*node.value);
+    const std::string key = "arm." + node.key;
+    const std::string text = read_text(*node.value, place, key);
     if (const auto choice = choice_of<Choice>(text)) return *choice;
     const std::vector<std::string> names(choice_names<Choice>.begin(), choice_names<Choice>.end());
-    throw reader.error(
-        key, fmt::format("\"{}\" is not {}{}", text, one_of(names), suggestion(text, names)));
+    throw key_error(
+        place, key,
+        fmt::format("\"{}\" is not {}{}", text, one_of(names), suggestion(text, names)));
 }
 
-/// Names become file names and columns of tables.
+/// Takes over the value of a key that selects where settings start; false for any other key.
+bool read_selection(const Document& document, const KeyedNode& node, Selection& selection) {
+    const auto text = [&] {
+        return read_text(*node.value, document.place_of(*node.value), "arm." + node.key);
+    };
+    if (node.key == "task") {
+        selection.task = read_choice<sim::Task>(document, node);
+    } else if (node.key == "source") {
+        selection.source = read_choice<sim::Source>(document, node);
+    } else if (node.key == "profile") {
+        selection.profile = text();
+    } else if (node.key == "parameters") {
+        selection.parameters = text();
+    } else {
+        return false;
+    }
+    return true;
+}
+
 std::string checked_name(TableReader& reader) {
     std::string name = reader.required_text("name");
-    const auto allowed = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               c == '-';
-    };
-    if (name.empty() || name.size() > 100 || !std::ranges::all_of(name, allowed)) {
-        throw reader.error("name", "expected 1 to 100 letters, digits and hyphens");
-    }
-    return name;
+    if (is_fit_name(name)) return name;
+    throw reader.error("name", "expected 1 to 100 letters, digits and hyphens");
 }
 
 /// Runs a function whose errors know the key but not the place.
@@ -56,25 +72,23 @@ auto located(const Place& place, Function function) {
     }
 }
 
-Arm read_arm(const Document& document, const toml::table& table, const Common& common,
-             const StudyOptions& options) {
-    const Place place = document.place_of(table);
-    TableReader reader(document, table, "arm");
+Arm read_arm(const Document& document, const Place& place, const ArmPlan& plan,
+             const Common& common, const StudyOptions& options) {
     Arm arm;
-    arm.name = checked_name(reader);
+    arm.name = plan.name;
     Selection selection;
-    selection.task = read_choice<sim::Task>(reader, "task");
-    selection.source = read_choice<sim::Source>(reader, "source");
-    selection.profile = reader.text("profile").value_or(common.profile);
-    selection.parameters = reader.text("parameters");
-    const toml::table* own_settings = reader.table("settings");
-    reader.refuse_other_keys();
-
+    selection.profile = common.profile;
+    std::vector<KeyedNode> own_settings;
+    for (const KeyedNode& node : plan.values) {
+        if (!read_selection(document, node, selection)) own_settings.push_back(node);
+    }
     arm.profile = selection.profile;
     arm.parameters = located(place, [&] { return parameter_set_of(selection); });
     arm.settings = located(place, [&] { return select(selection); });
-    for (const toml::table* settings : {common.settings, own_settings, common.quick_settings}) {
-        if (settings != nullptr) read_settings(document, *settings, arm.settings);
+    if (common.settings != nullptr) read_settings(document, *common.settings, arm.settings);
+    for (const KeyedNode& node : own_settings) read_setting(document, node, arm.settings);
+    if (common.quick_settings != nullptr) {
+        read_settings(document, *common.quick_settings, arm.settings);
     }
     for (const std::string& assignment : options.assignments) assign(arm.settings, assignment);
     check_together(arm.settings, {fmt::format("{}arm {}", place.prefix(), arm.name)});
@@ -117,19 +131,24 @@ Study read_study(const Document& document, const StudyOptions& options) {
     }
     study.seeds = options.seeds.value_or(study.seeds);
 
+    std::set<std::string> names;
     for (const toml::table* table : arms) {
-        Arm arm = read_arm(document, *table, common, options);
-        if (std::ranges::count(study.arms, arm.name, &Arm::name) > 0) {
-            throw key_error(document.place_of(*table), "arm.name",
-                            fmt::format("there are two arms \"{}\"", arm.name));
+        const Place place = document.place_of(*table);
+        for (const ArmPlan& plan : expand_arm(document, *table, arms_maximum - study.arms.size())) {
+            if (!names.insert(plan.name).second) {
+                throw key_error(place, "arm.name",
+                                fmt::format("there are two arms \"{}\"", plan.name));
+            }
+            study.arms.push_back(read_arm(document, place, plan, common, options));
         }
-        study.arms.push_back(std::move(arm));
     }
     return study;
 }
 
 void rehearse(const Study& study, const RunFunction& simulate) {
+    std::set<std::string> rehearsed;
     for (const Arm& arm : study.arms) {
+        if (!rehearsed.insert(arm.settings_hash).second) continue;
         sim::Settings settings = arm.settings;
         settings.run.cycles = 1;
         settings.run.sample_period_cycles = 1;

@@ -40,7 +40,8 @@ struct StudyOptions {
     std::vector<std::string> assignments = {};  ///< "key=value", over the settings of every arm
 };
 
-/// Reads a study. Each arm's settings are those of its profile, task and parameter set, then the
+/// Reads a study, each [[arm]] of which stands for one arm or, where it has lists, for several
+/// (expand_arm). Each arm's settings are those of its profile, task and parameter set, then the
 /// study's [settings], the arm's settings, [quick.settings], and the options' assignments.
 /// Throws InputError, with file, line and key.
 Study read_study(const Document& document, const StudyOptions& options = {});
