@@ -85,12 +85,14 @@ Reception Agent::receive(const Message& message) {
 Genome Agent::make_offspring(Birth& birth, double now_cycles) {
     const auto& members = population_.members();
     const std::size_t species = population_.select_species(random_);
-    const auto& first = members[population_.select_parent(species, random_)];
+    const std::size_t first_index = population_.select_parent(species, random_);
+    const auto& first = members[first_index];
     const GenomeId id{robot_, births_++};
     Genome offspring = *first.genome;
     offspring.id = id;
     if (random_.chance(settings_.p_mate)) {
-        const auto& second = members[population_.select_parent(species, random_)];
+        const auto& second = members[population_.select_second_parent(
+            settings_.second_parent, species, first_index, random_)];
         birth.mated = second.genome != first.genome;
         if (birth.mated) {
             offspring = crossover(id, {first.genome.get(), first.fitness},

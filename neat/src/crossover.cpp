@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 #include <vector>
 
 #include "gene_clocks/align.hpp"
@@ -48,16 +49,9 @@ void drop(const std::vector<bool>& is_dropped, Genome& genome) {
     genome.topology = std::move(topology);
 }
 
-}  // namespace
-
-Genome crossover(GenomeId id, Parent first, Parent second, const OdneatSettings& settings,
-                 RandomStream& random) {
-    // The fitter parent's genes are the child's: only matching ones have a choice.
-    const bool swap = !is_first_fitter(first, second);
-    const Genome& fitter = swap ? *second.genome : *first.genome;
-    const Genome& other = swap ? *first.genome : *second.genome;
-
-    Genome child{id, fitter.topology, fitter.weights, fitter.enabled};
+/// CrossoverKind::uniform.
+void inherit_uniformly(const Genome& fitter, const Genome& other, const OdneatSettings& settings,
+                       RandomStream& random, Genome& child) {
     align(fitter.topology->connection_marks, other.topology->connection_marks,
           [&](GeneMatch match, std::size_t i, std::size_t j) {
               if (match != GeneMatch::matching) return;
@@ -68,6 +62,43 @@ Genome crossover(GenomeId id, Parent first, Parent second, const OdneatSettings&
                   (enabled_in == 1.0f && random.chance(settings.disable_probability));
               child.enabled[i] = disable ? 0.0f : 1.0f;
           });
+}
+
+/// CrossoverKind::one_point.
+void inherit_at_one_point(const Genome& fitter, const Genome& other, RandomStream& random,
+                          Genome& child) {
+    std::vector<std::pair<std::size_t, std::size_t>> matches;  // oldest first
+    align(fitter.topology->connection_marks, other.topology->connection_marks,
+          [&](GeneMatch match, std::size_t i, std::size_t j) {
+              if (match == GeneMatch::matching) matches.emplace_back(i, j);
+          });
+    assert(!matches.empty());  // the initial ones
+    const auto places = static_cast<std::uint32_t>(std::max<std::size_t>(matches.size() - 1, 1));
+    const std::size_t cut = 1 + random.below(places);
+    const bool older_from_other = random.chance(0.5);
+    for (std::size_t place = 0; place < matches.size(); ++place) {
+        if ((place < cut) != older_from_other) continue;
+        const auto [i, j] = matches[place];
+        child.weights[i] = other.weights[j];
+        child.enabled[i] = other.enabled[j];
+    }
+}
+
+}  // namespace
+
+Genome crossover(GenomeId id, Parent first, Parent second, const OdneatSettings& settings,
+                 RandomStream& random) {
+    // The fitter parent's genes are the child's: only matching ones have a choice.
+    const bool swap = !is_first_fitter(first, second);
+    const Genome& fitter = swap ? *second.genome : *first.genome;
+    const Genome& other = swap ? *first.genome : *second.genome;
+
+    Genome child{id, fitter.topology, fitter.weights, fitter.enabled};
+    if (settings.crossover == CrossoverKind::one_point) {
+        inherit_at_one_point(fitter, other, random, child);
+    } else {
+        inherit_uniformly(fitter, other, settings, random, child);
+    }
     const auto is_reversal = find_reversals(*fitter.topology);
     if (std::find(is_reversal.begin(), is_reversal.end(), true) != is_reversal.end()) {
         drop(is_reversal, child);

@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "chronological_distance.hpp"
+
 namespace gene_clocks::neat {
 namespace {
 
@@ -134,10 +136,14 @@ DistanceMeasure::DistanceMeasure(const OdneatSettings& settings)
     : c_excess(static_cast<float>(settings.c_excess)),
       c_disjoint(static_cast<float>(settings.c_disjoint)),
       c_weight(static_cast<float>(settings.c_weight)),
-      weight_difference(settings.weight_difference) {}
+      weight_difference(settings.weight_difference),
+      mismatch(settings.mismatch) {}
 
 float distance(const Genome& first, const Genome& second, const DistanceMeasure& measure,
                float limit) {
+    if (measure.mismatch != Mismatch::excess_disjoint) {
+        return chronological_distance(first, second, measure);
+    }
     const bool is_sum = measure.weight_difference == WeightDifference::sum;
     const Topology& topology_a = *first.topology;
     const Topology& topology_b = *second.topology;

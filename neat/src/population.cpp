@@ -122,22 +122,42 @@ std::size_t Population::select_species(RandomStream& random) {
     return species_.size() - 1;
 }
 
-std::size_t Population::select_parent(std::size_t species, RandomStream& random) const {
-    const auto is_member = [&](const Member& member) { return member.species == species; };
-    const auto size =
-        static_cast<std::uint32_t>(std::count_if(members_.begin(), members_.end(), is_member));
-    assert(size > 0);
+/// The fitter of two distinct random candidates, or the only one; nullopt where there is none.
+template <class IsCandidate>
+std::optional<std::size_t> Population::hold_tournament(IsCandidate is_candidate,
+                                                       RandomStream& random) const {
+    std::uint32_t size = 0;
+    for (std::size_t i = 0; i < members_.size(); ++i) size += is_candidate(i) ? 1u : 0u;
     const auto nth = [&](std::uint32_t n) {
         std::size_t index = 0;
-        while (!is_member(members_[index]) || n-- > 0) ++index;
+        while (!is_candidate(index) || n-- > 0) ++index;
         return index;
     };
+    if (size == 0) return std::nullopt;
     if (size == 1) return nth(0);
     const std::uint32_t draw = random.below(size);
     const std::uint32_t other = (draw + 1 + random.below(size - 1)) % size;
     const std::size_t a = nth(draw);
     const std::size_t b = nth(other);
     return members_[b].fitness > members_[a].fitness ? b : a;
+}
+
+std::size_t Population::select_parent(std::size_t species, RandomStream& random) const {
+    const auto is_member = [&](std::size_t i) { return members_[i].species == species; };
+    const auto parent = hold_tournament(is_member, random);
+    assert(parent);
+    return *parent;
+}
+
+std::size_t Population::select_second_parent(SecondParent rule, std::size_t species,
+                                             std::size_t first, RandomStream& random) const {
+    assert(members_[first].species == species);
+    if (rule == SecondParent::tournament) return select_parent(species, random);
+    const bool is_any_species = rule == SecondParent::population;
+    const auto is_candidate = [&](std::size_t i) {
+        return i != first && (is_any_species || members_[i].species == species);
+    };
+    return hold_tournament(is_candidate, random).value_or(first);
 }
 
 }  // namespace gene_clocks::neat

@@ -36,6 +36,15 @@ inline constexpr std::array<std::string_view, 2> choice_names<neat::HeldEnergy> 
 template <>
 inline constexpr std::array<std::string_view, 2> choice_names<neat::HeldReports> = {"all",
                                                                                     "acceptable"};
+template <>
+inline constexpr std::array<std::string_view, 2> choice_names<neat::CrossoverKind> = {"uniform",
+                                                                                      "one-point"};
+template <>
+inline constexpr std::array<std::string_view, 3> choice_names<neat::Mismatch> = {
+    "excess-disjoint", "age", "since-common"};
+template <>
+inline constexpr std::array<std::string_view, 3> choice_names<neat::SecondParent> = {
+    "tournament", "other", "population"};
 
 /// The name of a choice. Throws std::out_of_range for a value that has none.
 template <typename Choice>

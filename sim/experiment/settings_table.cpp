@@ -120,6 +120,17 @@ std::vector<Setting> odneat_rows() {
         odneat<&S::held_reports>("odneat.held_reports", unused, "", "3.2",
                                  "which messages about a genome already held count: all, or only "
                                  "those with the energy that a new genome would need"),
+        odneat<&S::crossover>("odneat.crossover", unused, "", "3.2, 5",
+                              "how a child gets the genes that both parents have: each by chance, "
+                              "or the older from one parent and the younger from the other"),
+        odneat<&S::mismatch>(
+            "odneat.mismatch", unused, "", "Equation 1, 5",
+            "what an unmatched gene adds to the distance: c_1 or c_2 (as excess or "
+            "disjoint, or as above or below the last common gene), or the more "
+            "the older it is"),
+        odneat<&S::second_parent>("odneat.second_parent", unused, "", "3.2",
+                                  "from whom the second parent is drawn: the first one's species, "
+                                  "the others of it, or all others in the population"),
         odneat<&S::weight_limit>("odneat.weight_limit", {0, 1e6, true}, "", "3.2",
                                  "weights stay within plus and minus this"),
         odneat<&S::activation_slope>("odneat.activation_slope", {0, 1e3, true}, "", "",
@@ -132,9 +143,9 @@ std::vector<Setting> odneat_rows() {
                                           "period of the energy samples whose mean is the fitness"),
         odneat<&S::structural_tries>("odneat.structural_tries", {1, 1e6}, "draws", "",
                                      "draws after which a structural mutation gives up"),
-        odneat<&S::disable_probability>(
-            "odneat.disable_probability", probability, "", "",
-            "probability that a matching gene disabled in one parent is disabled"),
+        odneat<&S::disable_probability>("odneat.disable_probability", probability, "", "",
+                                        "probability that a matching gene disabled in one parent "
+                                        "is disabled (uniform crossover)"),
     };
 }
 

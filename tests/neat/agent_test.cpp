@@ -510,6 +510,30 @@ TEST_F(AgentTest, MatesOnlyTwoDifferentGenomes) {
                 5 * std::sqrt(expected * (1 - expected) / births));
 }
 
+TEST_F(AgentTest, MatesWhomTheSettingsSay) {
+    settings_.p_mate = 1.0;
+    settings_.population = 10;
+    const auto mates_always = [&](SecondParent rule, float weight_of_other) {
+        settings_.second_parent = rule;
+        int mated = 0;
+        for (std::uint32_t robot = 11; robot <= 60; ++robot) {
+            Agent agent = make_agent(robot);
+            Message other = message(0, 0.0f, 90.0f);
+            auto genome = std::make_shared<Genome>(agent.active());
+            genome->id = other.genome->id;
+            genome->weights[0] += weight_of_other;
+            other.genome = std::move(genome);
+            agent.receive(other);
+            mated += agent.replace(0.0).mated ? 1 : 0;
+        }
+        return mated == 50;
+    };
+    EXPECT_FALSE(mates_always(SecondParent::tournament, 3.0f));  // the fitter of two, twice
+    EXPECT_TRUE(mates_always(SecondParent::other, 3.0f));
+    EXPECT_FALSE(mates_always(SecondParent::other, 9.0f));  // of another species
+    EXPECT_TRUE(mates_always(SecondParent::population, 9.0f));
+}
+
 TEST_F(AgentTest, MatesAndMutatesWithTheirProbabilities) {
     settings_.p_mate = 0.3;
     settings_.p_mutate = 0.6;

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <vector>
 
 #include "sample_genomes.hpp"
 
@@ -137,6 +141,70 @@ TEST_F(Crossover, TheProbabilityOfDisablingIsASetting) {
     for (int i = 0; i < 100; ++i) ASSERT_TRUE(cross(2.0f, 1.0f).is_enabled(0));
     settings_.disable_probability = 1.0;
     for (int i = 0; i < 100; ++i) ASSERT_FALSE(cross(2.0f, 1.0f).is_enabled(0));
+}
+
+TEST_F(Crossover, AtOnePointCutsEverywhereEquallyOftenAndEitherWayRound) {
+    settings_.crossover = CrossoverKind::one_point;
+    std::map<std::vector<float>, int> counts;
+    constexpr int children = 20'000;
+    for (int i = 0; i < children; ++i) {
+        const Genome child = cross(2.0f, 1.0f);
+        ++counts[{child.weights.begin(), child.weights.begin() + 6}];
+        EXPECT_EQ(child.weights[6], 1.0f);  // unmatched
+        EXPECT_EQ(child.weights[7], 1.0f);
+    }
+    // Five places between six matching genes, two ways round each.
+    ASSERT_EQ(counts.size(), 10u);
+    for (std::size_t cut = 1; cut <= 5; ++cut) {
+        for (const float older : {1.0f, 2.0f}) {
+            std::vector<float> weights(6, 3.0f - older);
+            std::fill_n(weights.begin(), cut, older);
+            EXPECT_NEAR(counts[weights] / double{children}, 0.1,
+                        5 * std::sqrt(0.1 * 0.9 / children));
+        }
+    }
+}
+
+TEST_F(Crossover, AtOnePointAGeneBringsItsFlagAlong) {
+    settings_.crossover = CrossoverKind::one_point;
+    settings_.disable_probability = 0.5;
+    first_.enabled = {0.0f, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f};
+    second_.enabled = {1.0f, 0.0f, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f};
+    for (int i = 0; i < 100; ++i) {
+        const Genome child = cross(2.0f, 1.0f);
+        for (std::size_t gene = 0; gene < 8; ++gene) {
+            const Genome& parent = child.weights[gene] == 1.0f ? first_ : second_;
+            ASSERT_EQ(child.enabled[gene], parent.enabled[gene]) << gene;
+        }
+    }
+}
+
+TEST_F(Crossover, AtOnePointGenesMatchByTheirMarks) {
+    settings_.crossover = CrossoverKind::one_point;
+    add_gene(first_, mark(30), {genesis(5), genesis(5), true}, 3.0f);
+    add_gene(second_, mark(30), {genesis(5), genesis(5), true}, 4.0f, false);
+    add_gene(second_, mark(40), {genesis(4), genesis(5), true}, 5.0f);
+    const std::size_t place = index_of(first_, mark(30));
+    std::set<float> seen;
+    for (int i = 0; i < 100; ++i) {
+        const Genome child = cross(2.0f, 1.0f);
+        seen.insert(child.weights[place]);
+        // The youngest common gene and the oldest never come from one parent.
+        ASSERT_EQ(child.weights[place] == 3.0f, child.weights[0] == 2.0f);
+        ASSERT_EQ(child.is_enabled(place), child.weights[place] == 3.0f);
+    }
+    EXPECT_EQ(seen, (std::set<float>{3.0f, 4.0f}));
+}
+
+TEST_F(Crossover, AtOnePointWorksWithOneCommonGene) {
+    settings_.crossover = CrossoverKind::one_point;
+    first_ = perceptron(1, 1);
+    second_ = perceptron(1, 1);
+    first_.weights = {1.0f};
+    second_.weights = {2.0f};
+    std::set<float> seen;
+    for (int i = 0; i < 100; ++i) seen.insert(cross(2.0f, 1.0f).weights[0]);
+    EXPECT_EQ(seen, (std::set<float>{1.0f, 2.0f}));
 }
 
 TEST_F(Crossover, DropsAConnectionThatReversesAnEarlierFeedForwardOne) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "sample_genomes.hpp"
 
@@ -19,6 +20,13 @@ DistanceMeasure measure(WeightDifference weight_difference) {
     settings.weight_difference = weight_difference;
     return DistanceMeasure(settings);
 }
+DistanceMeasure measure(Mismatch mismatch) {
+    OdneatSettings settings;
+    settings.mismatch = mismatch;
+    return DistanceMeasure(settings);
+}
+const DistanceMeasure by_age = measure(Mismatch::age);
+const DistanceMeasure since_common = measure(Mismatch::since_common);
 const DistanceMeasure by_sum = measure(WeightDifference::sum);
 const DistanceMeasure by_mean = measure(WeightDifference::mean);
 
@@ -159,6 +167,57 @@ TEST(Distance, TakesItsCoefficientsFromTheSettings) {
                     2.0f / 5.0f + 3.0f / 5.0f + 5.0f);
 }
 
+TEST(Distance, ByAgeAnOlderMissingGeneCountsMore) {
+    Genome all = base();
+    for (const std::uint64_t counter : {20u, 21u, 22u}) add(all, mark(counter));
+    // (c1 + c2) / 2 = 1; N = 7; of three genes the ages are 5/3, 3/3 and 1/3.
+    const auto without = [](std::uint64_t missing) {
+        Genome genome = base();
+        for (const std::uint64_t counter : {20u, 21u, 22u}) {
+            if (counter != missing) add(genome, mark(counter));
+        }
+        return genome;
+    };
+    EXPECT_FLOAT_EQ(distance(all, without(20), by_age), 5.0f / 3.0f / 7.0f);
+    EXPECT_FLOAT_EQ(distance(all, without(21), by_age), 3.0f / 3.0f / 7.0f);
+    EXPECT_FLOAT_EQ(distance(all, without(22), by_age), 1.0f / 3.0f / 7.0f);
+}
+
+TEST(Distance, ByAgeIsEquation1WithTheMeanCoefficientForGenomesThatShareInitialGenesAlone) {
+    Genome first = base();
+    Genome second = first;
+    for (const std::uint64_t counter : {20u, 23u}) add(first, mark(counter));
+    for (const std::uint64_t counter : {21u, 22u, 24u, 25u, 26u}) add(second, mark(counter));
+    EXPECT_FLOAT_EQ(distance(first, second, by_age), 7.0f / 9.0f);
+    EXPECT_FLOAT_EQ(distance(first, base(), by_age), 2.0f / 6.0f);
+}
+
+TEST(Distance, ByAgeRanksCountAndNotTheMarksThemselves) {
+    const auto pair_at = [](std::uint64_t scale) {
+        std::pair<Genome, Genome> pair{base(), base()};
+        for (const std::uint64_t counter : {20u, 21u, 25u}) add(pair.first, mark(counter * scale));
+        for (const std::uint64_t counter : {20u, 22u, 23u}) add(pair.second, mark(counter * scale));
+        return pair;
+    };
+    const auto counters = pair_at(1);
+    const auto times = pair_at(1'000'000'007);
+    const float expected = (3.0f + 1.0f) / 3.0f + (3.0f + 1.0f) / 3.0f;
+    EXPECT_FLOAT_EQ(distance(counters.first, counters.second, by_age), expected / 7.0f);
+    EXPECT_EQ(distance(times.first, times.second, by_age),
+              distance(counters.first, counters.second, by_age));
+}
+
+TEST(Distance, SinceTheLastCommonGeneAllUnmatchedOnesAreExcess) {
+    Genome first = base();
+    Genome second = first;
+    for (const std::uint64_t counter : {20u, 22u, 25u, 26u}) add(first, mark(counter));
+    for (const std::uint64_t counter : {21u, 22u, 24u, 27u}) add(second, mark(counter));
+    // 22 is common. Below it 20 and 21; above it 25, 26 and 24, 27.
+    EXPECT_FLOAT_EQ(distance(first, second, since_common), (0.5f * 4.0f + 1.5f * 2.0f) / 8.0f);
+    // Equation 1 counts 27 alone as excess.
+    EXPECT_FLOAT_EQ(distance(first, second, by_sum), (0.5f * 1.0f + 1.5f * 5.0f) / 8.0f);
+}
+
 // ---- properties over pairs that random histories make ----
 
 struct Pair {
@@ -186,10 +245,28 @@ Pair random_pair() {
 }
 
 DistanceMeasure random_measure() {
-    return measure(*rc::gen::element(WeightDifference::sum, WeightDifference::mean));
+    OdneatSettings settings;
+    settings.weight_difference = *rc::gen::element(WeightDifference::sum, WeightDifference::mean);
+    settings.mismatch =
+        *rc::gen::element(Mismatch::excess_disjoint, Mismatch::age, Mismatch::since_common);
+    return DistanceMeasure(settings);
 }
 
-/// Equation 1 in double precision from maps, without a merge.
+/// Over unmatched genes, the sum of (2·(k − r) + 1)/k; r counts the genes up to this one that are
+/// not initial, k all of them.
+template <class Genes>
+double naive_ages(const Genes& genes, const Genes& others, std::size_t initial) {
+    const auto k = static_cast<double>(genes.size() - initial);
+    double ages = 0.0;
+    double rank = -static_cast<double>(initial);
+    for (const auto& [mark, gene] : genes) {
+        rank += 1.0;
+        if (!others.contains(mark)) ages += (2 * (k - rank) + 1) / k;
+    }
+    return ages;
+}
+
+/// The distance in double precision from maps, without a merge.
 double naive_distance(const Genome& first, const Genome& second, const DistanceMeasure& measure) {
     struct Weight {
         double weight;
@@ -204,7 +281,12 @@ double naive_distance(const Genome& first, const Genome& second, const DistanceM
     };
     const auto genes_1 = genes_of(first);
     const auto genes_2 = genes_of(second);
-    const auto end = std::min(genes_1.rbegin()->first, genes_2.rbegin()->first);
+    auto end = std::min(genes_1.rbegin()->first, genes_2.rbegin()->first);
+    if (measure.mismatch == Mismatch::since_common) {
+        for (const auto& [mark, gene] : genes_1) {
+            if (genes_2.contains(mark)) end = mark;
+        }
+    }
     double excess = 0.0, disjoint = 0.0, weights = 0.0, matching = 0.0;
     const auto count_missing = [&](const auto& genes, const auto& others) {
         for (const auto& [mark, gene] : genes) {
@@ -222,6 +304,12 @@ double naive_distance(const Genome& first, const Genome& second, const DistanceM
     }
     if (measure.weight_difference == WeightDifference::mean && matching > 0.0) weights /= matching;
     const double size = static_cast<double>(std::max(genes_1.size(), genes_2.size()));
+    if (measure.mismatch == Mismatch::age) {
+        const double ages = naive_ages(genes_1, genes_2, first.topology->initial_connections) +
+                            naive_ages(genes_2, genes_1, second.topology->initial_connections);
+        return (double{measure.c_excess} + double{measure.c_disjoint}) / 2 * ages / size +
+               double{measure.c_weight} * weights;
+    }
     return double{measure.c_excess} * excess / size + double{measure.c_disjoint} * disjoint / size +
            double{measure.c_weight} * weights;
 }
@@ -250,6 +338,25 @@ RC_GTEST_PROP(DistanceProperty, IsTheSameBitForBitWhetherATopologyIsSharedOrEqua
     const float shared = distance(pair.first, pair.second, chosen);
     pair.second.topology = std::make_shared<const Topology>(*pair.first.topology);
     RC_ASSERT(distance(pair.first, pair.second, chosen) == shared);
+}
+
+RC_GTEST_PROP(DistanceProperty, ByAgeLiesBetweenNothingAndAllNewGenesBeingUnmatched, ()) {
+    const Pair pair = random_pair();
+    OdneatSettings settings;
+    settings.mismatch = Mismatch::age;
+    settings.c_weight = 0.0;
+    const auto new_genes = [](const Genome& genome) {
+        return static_cast<float>(genome.connections() - genome.topology->initial_connections);
+    };
+    const auto size =
+        static_cast<float>(std::max(pair.first.connections(), pair.second.connections()));
+    const float bound = (new_genes(pair.first) + new_genes(pair.second)) / size;
+    const float found = distance(pair.first, pair.second, DistanceMeasure(settings));
+    RC_ASSERT(found >= 0.0f);
+    RC_ASSERT(found <= bound * 1.000001f);
+    const bool same =
+        pair.first.topology->connection_marks == pair.second.topology->connection_marks;
+    RC_ASSERT((found == 0.0f) == same);
 }
 
 RC_GTEST_PROP(DistanceProperty, AnEarlyExitNeverChangesADecision, ()) {

@@ -2,10 +2,13 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "gene_clocks/neat/crossover.hpp"
+#include "gene_clocks/neat/distance.hpp"
 #include "gene_clocks/neat/timestamp_source.hpp"
 #include "sample_genomes.hpp"
 
@@ -25,6 +28,7 @@ public:
                                           *rc::gen::inRange<std::size_t>(1, 4))),
           pools_(robots) {
         settings_.sigma = 3.0;
+        settings_.crossover = *rc::gen::element(CrossoverKind::uniform, CrossoverKind::one_point);
         const std::uint64_t genesis_marks =
             genesis_mark_count(topology_->inputs, topology_->outputs);
         for (std::uint32_t robot = 1; robot <= robots; ++robot) {
@@ -178,6 +182,81 @@ RC_GTEST_PROP(OperatorsProperty, AChildHasTheMarksOfOneParentLessReversals, ()) 
         ++next;
     }
     RC_ASSERT(next == child.connections());
+}
+
+// OdneatSettings::crossover: of the genes that both parents have, the older come from one of them
+// and the younger from the other, weight and flag alike.
+RC_GTEST_PROP(OperatorsProperty, OnePointCrossoverCutsTheCommonGenesOnce, ()) {
+    Breeders breeders = random_breeders(*rc::gen::arbitrary<bool>());
+    for (int cycle = 0; cycle < 100; ++cycle) breeders.step(cycle);
+    const auto& pool = *rc::gen::elementOf(breeders.pools());
+    const Genome& first = *rc::gen::elementOf(pool);
+    const Genome& second = *rc::gen::elementOf(pool);
+    RandomStream random(*rc::gen::arbitrary<std::uint32_t>(), 1);
+    OdneatSettings settings = breeders.settings();
+    settings.crossover = CrossoverKind::one_point;
+    const Genome child = crossover({}, {&first, 2.0f}, {&second, 1.0f}, settings, random);
+
+    using Copy = std::pair<float, float>;
+    const auto genes_of = [](const Genome& genome) {
+        std::map<InnovationNumber, Copy> genes;
+        for (std::size_t i = 0; i < genome.connections(); ++i) {
+            genes[genome.topology->connection_marks[i]] = {genome.weights[i], genome.enabled[i]};
+        }
+        return genes;
+    };
+    const auto of_first = genes_of(first);
+    const auto of_second = genes_of(second);
+    std::vector<InnovationNumber> common;
+    for (const auto& [mark, copy] : of_first) {
+        if (of_second.contains(mark)) common.push_back(mark);
+    }
+    // Some cut, either way round, explains the whole child.
+    const auto is_explained = [&](std::size_t cut, bool older_from_second) {
+        for (std::size_t i = 0; i < child.connections(); ++i) {
+            const InnovationNumber mark = child.topology->connection_marks[i];
+            const bool is_common = of_second.contains(mark);
+            const bool is_older = cut == common.size() || mark < common[cut];
+            const auto& source = is_common && is_older == older_from_second ? of_second : of_first;
+            if (source.at(mark) != Copy{child.weights[i], child.enabled[i]}) return false;
+        }
+        return true;
+    };
+    bool explained = false;
+    for (std::size_t cut = 1; cut < std::max<std::size_t>(common.size(), 2); ++cut) {
+        explained = explained || is_explained(cut, false) || is_explained(cut, true);
+    }
+    RC_ASSERT(explained);
+}
+
+// distance.hpp: below the last common gene, parted genomes differ only by what crossover dropped.
+RC_GTEST_PROP(OperatorsProperty, BelowTheLastCommonGeneLieDroppedReversalsAloneUnderGeneClocks,
+              ()) {
+    Breeders breeders = random_breeders(false);
+    const int steps = *rc::gen::inRange(0, 200);
+    for (int cycle = 0; cycle < steps; ++cycle) breeders.step(cycle);
+    OdneatSettings settings;
+    settings.mismatch = Mismatch::since_common;
+    settings.c_excess = settings.c_weight = 0.0;
+    settings.c_disjoint = 1.0;
+    const DistanceMeasure below_common(settings);
+    const auto has_unmatched_reversal = [](const Topology& genome, const Topology& other) {
+        for (std::size_t i = 0; i < genome.connection_ends.size(); ++i) {
+            const ConnectionEnds& ends = genome.connection_ends[i];
+            if (genome.joined(ends.target, ends.source) && ends.source != ends.target &&
+                !std::ranges::binary_search(other.connection_marks, genome.connection_marks[i])) {
+                return true;
+            }
+        }
+        return false;
+    };
+    const auto& pool = *rc::gen::elementOf(breeders.pools());
+    const Genome& first = *rc::gen::elementOf(*rc::gen::elementOf(breeders.pools()));
+    for (const Genome& second : pool) {
+        const bool differs_below = distance(first, second, below_common) > 0.0f;
+        RC_ASSERT((!differs_below || has_unmatched_reversal(*first.topology, *second.topology) ||
+                   has_unmatched_reversal(*second.topology, *first.topology)));
+    }
 }
 
 }  // namespace

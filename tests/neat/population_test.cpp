@@ -260,5 +260,45 @@ TEST_F(PopulationTest, TheOnlyMemberIsTheParent) {
     }
 }
 
+TEST_F(PopulationTest, TheSecondParentMayBeTheFirstUnlessTheRuleSaysOtherwise) {
+    Population population = make();
+    population.add(genome_at(0.0f, 0), 3.0f);
+    population.add(genome_at(9.0f, 1), 9.0f);  // of another species
+    population.add(genome_at(0.0f, 2), 1.0f);
+    population.add(genome_at(0.0f, 3), 2.0f);
+    const auto shares = [&](SecondParent rule, std::size_t first) {
+        std::vector<double> counts(4);
+        for (int i = 0; i < draws; ++i) {
+            counts[population.select_second_parent(rule, 0, first, random_)] += 1.0 / draws;
+        }
+        return counts;
+    };
+    const auto expect = [&](SecondParent rule, std::size_t first, std::vector<double> expected) {
+        const auto found = shares(rule, first);
+        for (std::size_t i = 0; i < 4; ++i) {
+            EXPECT_NEAR(found[i], expected[i], tolerance(expected[i]) + 1e-9)
+                << i << " for " << first;
+        }
+    };
+    // Of three in the species, the fittest wins two of three pairs; of two, the fitter always wins.
+    expect(SecondParent::tournament, 0, {2.0 / 3.0, 0.0, 0.0, 1.0 / 3.0});
+    expect(SecondParent::other, 0, {0.0, 0.0, 0.0, 1.0});
+    expect(SecondParent::other, 3, {1.0, 0.0, 0.0, 0.0});
+    expect(SecondParent::population, 0, {0.0, 2.0 / 3.0, 0.0, 1.0 / 3.0});
+    expect(SecondParent::population, 3, {1.0 / 3.0, 2.0 / 3.0, 0.0, 0.0});
+}
+
+TEST_F(PopulationTest, WhereNobodyElseIsAdmittedTheSecondParentIsTheFirst) {
+    Population population = make();
+    population.add(genome_at(0.0f, 0), 1.0f);
+    for (const auto rule :
+         {SecondParent::tournament, SecondParent::other, SecondParent::population}) {
+        EXPECT_EQ(population.select_second_parent(rule, 0, 0, random_), 0u);
+    }
+    population.add(genome_at(9.0f, 1), 0.0f);
+    EXPECT_EQ(population.select_second_parent(SecondParent::other, 1, 1, random_), 1u);
+    EXPECT_EQ(population.select_second_parent(SecondParent::population, 1, 1, random_), 0u);
+}
+
 }  // namespace
 }  // namespace gene_clocks::neat

@@ -159,5 +159,39 @@ TEST_F(SimulationTest, MarkingsThatExtendCauseAndEffectGiveOneTrajectory) {
     }
 }
 
+// docs/markings.md: so do the other two mismatches, whatever excess and disjoint weigh, and the
+// crossover that cuts the genes in the order of their marks.
+TEST_F(SimulationTest, ChronologicalOperatorsCannotTellMarkingsThatExtendCauseAndEffectApart) {
+    settings_.odneat.p_mate = 0.9;
+    settings_.odneat.p_mutate = 0.9;
+    settings_.odneat.c_excess = 0.5;
+    settings_.odneat.c_disjoint = 5.0;
+    settings_.odneat.crossover = neat::CrossoverKind::one_point;
+    settings_.odneat.second_parent = neat::SecondParent::population;
+    const auto trajectory = [&](Source source, std::uint64_t seed) {
+        settings_.source = source;
+        const RunResult result = run(seed);
+        EXPECT_GT(result.counters.matings, 10u);
+        return result.trajectory_hash;
+    };
+    int differing = 0;
+    for (const auto mismatch : {neat::Mismatch::age, neat::Mismatch::since_common}) {
+        settings_.odneat.mismatch = mismatch;
+        for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+            const auto expected = trajectory(Source::gene_clock, seed);
+            EXPECT_EQ(trajectory(Source::timestamp, seed), expected);
+            EXPECT_EQ(trajectory(Source::hybrid_logical_clock, seed), expected);
+            differing += trajectory(Source::gene_clock_no_merge, seed) != expected;
+        }
+    }
+    EXPECT_GT(differing, 0) << "nothing here depends on the order of marks";
+    settings_.odneat.mismatch = neat::Mismatch::excess_disjoint;
+    differing = 0;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        differing += trajectory(Source::timestamp, seed) != trajectory(Source::gene_clock, seed);
+    }
+    EXPECT_GT(differing, 0) << "Equation 1 could not tell them apart either";
+}
+
 }  // namespace
 }  // namespace gene_clocks::sim

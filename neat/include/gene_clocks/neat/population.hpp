@@ -59,12 +59,21 @@ public:
     /// The fitter of two distinct random members of a species, or its only one.
     std::size_t select_parent(std::size_t species, RandomStream& random) const;
 
+    /// The other parent of an offspring of `first`, a member of that species: the fitter of two
+    /// distinct random members of those whom the rule admits, or its only one; `first` itself where
+    /// it admits nobody else.
+    std::size_t select_second_parent(SecondParent rule, std::size_t species, std::size_t first,
+                                     RandomStream& random) const;
+
 private:
     struct Species {
         std::shared_ptr<const Genome> representative;  // invariant: its first member
         float fitness = 0.0f;
     };
 
+    template <class IsCandidate>
+    std::optional<std::size_t> hold_tournament(IsCandidate is_candidate,
+                                               RandomStream& random) const;
     void place(Member& member);
     void refresh_fitness();
 

@@ -22,6 +22,26 @@ enum class HeldReports : std::uint8_t {
     acceptable,  ///< only one whose energy would gain a new genome admission (paper, Algorithm 1)
 };
 
+/// How a child gets the genes that both parents have.
+enum class CrossoverKind : std::uint8_t {
+    uniform,    ///< each from either parent, by chance (paper, section 3.2)
+    one_point,  ///< the older ones from one parent, the younger ones from the other
+};
+
+/// What a gene that only one of two genomes has adds to their distance; see `distance`.
+enum class Mismatch : std::uint8_t {
+    excess_disjoint,  ///< c1 or c2, as it is excess or disjoint (paper, Equation 1)
+    age,              ///< the more, the older it is
+    since_common,     ///< c1 or c2, as it is younger or older than the last common gene
+};
+
+/// From whom the second parent of an offspring is drawn, by tournament of two.
+enum class SecondParent : std::uint8_t {
+    tournament,  ///< the first one's species; may be the first again, and then nobody mates
+    other,       ///< the same without the first, wherever the species has another member
+    population,  ///< all species, without the first
+};
+
 /// The parameters of odNEAT (paper, Table 1 and section 3.2). Defaults: set B, as run.
 struct OdneatSettings {
     double p_mate = 0.212;        ///< probability that an offspring has two parents
@@ -43,6 +63,9 @@ struct OdneatSettings {
     WeightDifference weight_difference = WeightDifference::sum;
     HeldEnergy held_energy = HeldEnergy::running_mean;
     HeldReports held_reports = HeldReports::all;
+    CrossoverKind crossover = CrossoverKind::uniform;
+    Mismatch mismatch = Mismatch::excess_disjoint;
+    SecondParent second_parent = SecondParent::tournament;
 
     double weight_limit = 10.0;          ///< weights stay within ±weight_limit
     double activation_slope = 4.924273;  ///< k in 1 / (1 + exp(−k x))
@@ -50,7 +73,7 @@ struct OdneatSettings {
     double energy_maximum = 200.0;       ///< energy is kept within [0, energy_maximum]
     std::int64_t fitness_period_cycles = 10;  ///< fitness samples the energy this often
     std::int64_t structural_tries = 20;       ///< draws before a structural mutation gives up
-    double disable_probability = 0.875;       ///< of a matching gene that is disabled in one parent
+    double disable_probability = 0.875;  ///< of a matching gene disabled in one parent (uniform)
 };
 
 }  // namespace gene_clocks::neat
