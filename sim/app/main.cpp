@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
     app::add_report_command(application, status);
     app::add_reproduce_command(application, status);
     app::add_settings_command(application, status);
+    app::add_contrast_command(application, status);
     app::add_export_command(application, status);
     app::add_check_trace_command(application, status);
 

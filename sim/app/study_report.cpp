@@ -32,11 +32,9 @@ report::Arm arm_of(const Store& store, const StoredStudy& study,
 
 }  // namespace
 
-void report_on(const std::filesystem::path& file, const std::vector<std::string>& names,
-               const std::string& command, const std::filesystem::path& folder) {
+report::Input read_input(const std::filesystem::path& file, const std::vector<std::string>& names) {
     const Store store = Store::open_for_reading(file);
     report::Input input;
-    input.command = command;
     input.program_version = experiment::program_version();
     for (const StoredStudy& study : named_studies(store, names)) {
         if (input.study.empty()) {
@@ -49,6 +47,13 @@ void report_on(const std::filesystem::path& file, const std::vector<std::string>
             input.arms.push_back(arm_of(store, study, arm));
         }
     }
+    return input;
+}
+
+void report_on(const std::filesystem::path& file, const std::vector<std::string>& names,
+               const std::string& command, const std::filesystem::path& folder) {
+    report::Input input = read_input(file, names);
+    input.command = command;
     report::write_report(input, folder);
     fmt::print(stderr, "Report: {}\n", (folder / "index.html").string());
 }

@@ -159,8 +159,8 @@ void read_settings(const Document& document, const toml::table& table, sim::Sett
     for (const KeyedNode& node : flatten(document, table)) read_setting(document, node, settings);
 }
 
-void assign(sim::Settings& settings, std::string_view assignment) {
-    const Place place{"--set " + std::string(assignment)};
+void assign(sim::Settings& settings, std::string_view assignment, std::string_view option) {
+    const Place place{fmt::format("{} {}", option, assignment)};
     const auto equals = assignment.find('=');
     if (equals == std::string_view::npos || equals == 0) {
         throw InputError(place.prefix() + "expected key=value, as in odneat.p_mate=0.5");

@@ -36,9 +36,10 @@ void read_setting(const Document& document, const KeyedNode& node, sim::Settings
 /// values out of range; `settings` is then partly changed.
 void read_settings(const Document& document, const toml::table& table, sim::Settings& settings);
 
-/// Takes over one "key=value", as the command line gives it. Texts and choices need no quotes.
-/// Throws InputError as read_settings does; `settings` is then unchanged.
-void assign(sim::Settings& settings, std::string_view assignment);
+/// Takes over one "key=value", as an option of the command line gives it. Texts and choices need no
+/// quotes. Throws InputError as read_settings does; `settings` is then unchanged.
+void assign(sim::Settings& settings, std::string_view assignment,
+            std::string_view option = "--set");
 
 /// Refuses settings that contradict each other, each by itself being valid. Throws InputError.
 void check_together(const sim::Settings& settings, const Place& place);

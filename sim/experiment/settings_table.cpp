@@ -267,6 +267,14 @@ const Setting* find_setting(std::string_view key) {
     return found == settings_table().end() ? nullptr : &*found;
 }
 
+std::vector<std::string> differing_keys(const sim::Settings& one, const sim::Settings& other) {
+    std::vector<std::string> keys;
+    for (const Setting& setting : settings_table()) {
+        if (setting.get(one) != setting.get(other)) keys.emplace_back(setting.key);
+    }
+    return keys;
+}
+
 std::string suggest_setting(std::string_view key) {
     const auto dot = key.find('.');
     const std::string_view name = dot == std::string_view::npos ? key : key.substr(dot + 1);

@@ -54,6 +54,9 @@ const std::vector<Setting>& settings_table();
 /// The setting of that key; null where there is none.
 const Setting* find_setting(std::string_view key);
 
+/// The keys in which two settings differ, in the table's order.
+std::vector<std::string> differing_keys(const sim::Settings& one, const sim::Settings& other);
+
 /// "; did you mean odneat.p_mate?", also for a key that lacks its table; or nothing.
 std::string suggest_setting(std::string_view key);
 

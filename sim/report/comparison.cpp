@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "input_error.hpp"
@@ -55,12 +56,9 @@ ArmNumbers order_runs(const Arm& arm) {
 
 /// Whether two arms may be compared: all else but the source is the same.
 bool comparable(const Arm& one, const Arm& other) {
-    if (one.profile != other.profile || one.settings.source == other.settings.source) return false;
-    return std::ranges::all_of(experiment::settings_table(),
-                               [&](const experiment::Setting& setting) {
-                                   return setting.key == "source" ||
-                                          setting.get(one.settings) == setting.get(other.settings);
-                               });
+    return one.profile == other.profile &&
+           experiment::differing_keys(one.settings, other.settings) ==
+               std::vector<std::string>{"source"};
 }
 
 /// The name of the parameter set that the settings hold; empty where they hold none.
@@ -83,24 +81,32 @@ Role role_of(const Comparison& comparison) {
     return Role::other;
 }
 
+double best_swarm_fitness(const ArmNumbers& numbers) {
+    double best = 0.0;
+    for (const Run* run : numbers.runs)
+        best = std::max(best, experiment::best_swarm_fitness(run->result.samples));
+    return best;
+}
+
+/// `best` is what t_f and f_a refer to.
+void fill_values(ArmNumbers& numbers, double best) {
+    sim::MeasureSettings settings = numbers.arm->settings.measures;
+    settings.best_fitness = best;
+    for (const Run* run : numbers.runs) {
+        const auto summary = experiment::summarise(run->result.samples, settings);
+        for (const Measure& measure : measures) {
+            if (const auto value = measure.of(summary))
+                numbers.values[measure.id].push_back(*value);
+        }
+    }
+}
+
 void fill_values(Comparison& comparison) {
     for (const ArmNumbers& numbers : comparison.arms) {
-        for (const Run* run : numbers.runs) {
-            comparison.best_swarm_fitness = std::max(
-                comparison.best_swarm_fitness, experiment::best_swarm_fitness(run->result.samples));
-        }
+        comparison.best_swarm_fitness =
+            std::max(comparison.best_swarm_fitness, best_swarm_fitness(numbers));
     }
-    sim::MeasureSettings settings = comparison.settings.measures;
-    settings.best_fitness = comparison.best_swarm_fitness;
-    for (ArmNumbers& numbers : comparison.arms) {
-        for (const Run* run : numbers.runs) {
-            const auto summary = experiment::summarise(run->result.samples, settings);
-            for (const Measure& measure : measures) {
-                if (const auto value = measure.of(summary))
-                    numbers.values[measure.id].push_back(*value);
-            }
-        }
-    }
+    for (ArmNumbers& numbers : comparison.arms) fill_values(numbers, comparison.best_swarm_fitness);
 }
 
 std::vector<std::uint64_t> shared_seeds(const ArmNumbers& x, const ArmNumbers& y) {
@@ -146,6 +152,19 @@ const ArmNumbers* Comparison::arm(sim::Source source) const {
     return found == arms.end() ? nullptr : &*found;
 }
 
+std::vector<ArmNumbers> arm_numbers(const Input& input) {
+    std::vector<ArmNumbers> all;
+    std::map<Family, double> best;
+    for (const Arm& arm : input.arms) {
+        if (arm.runs.empty()) continue;
+        const ArmNumbers& numbers = all.emplace_back(order_runs(arm));
+        double& of_family = best[family_of(arm)];
+        of_family = std::max(of_family, best_swarm_fitness(numbers));
+    }
+    for (ArmNumbers& numbers : all) fill_values(numbers, best.at(family_of(*numbers.arm)));
+    return all;
+}
+
 std::vector<Comparison> compare(const Input& input) {
     std::vector<Comparison> comparisons;
     for (const Arm& arm : input.arms) {
@@ -176,6 +195,10 @@ std::vector<Comparison> compare(const Input& input) {
         fill_values(comparison);
     }
     return comparisons;
+}
+
+Family family_of(const Arm& arm) {
+    return {arm.settings.task, arm.profile};
 }
 
 std::optional<std::pair<std::vector<double>, std::vector<double>>> independent_halves(

@@ -21,6 +21,14 @@ struct ArmNumbers {
     std::map<std::string_view, std::vector<double>> values;
 };
 
+/// What may be looked at side by side: the arms of one task and one profile.
+using Family = std::pair<sim::Task, std::string>;
+Family family_of(const Arm& arm);
+
+/// Every arm that holds runs, in the order of the arms. What refers to the best swarm fitness
+/// refers to that of the arm's family. Throws as `compare` does.
+std::vector<ArmNumbers> arm_numbers(const Input& input);
+
 /// Which of the paper's settings a comparison repeats.
 enum class Role {
     as_run,      ///< the parameter set that the published runs used

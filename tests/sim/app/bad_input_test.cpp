@@ -176,6 +176,17 @@ TEST_F(BadInputTest, OtherStudiesAndPathsOnExport) {
     expect_refusal({"report", "runs.sqlite", "--study", "gecco51"}, "holds no study \"gecco51\"");
     expect_refusal({"export", "runs.sqlite", "--runs", "none/runs.csv"},
                    "none/runs.csv: cannot be written there");
+    const auto contrast = [](const std::string& option, const std::string& value) {
+        return Program::Arguments{"contrast", "runs.sqlite", option, value};
+    };
+    expect_refusal(contrast("--csv", "none/contrast.csv"), "none/contrast.csv: cannot be written");
+    expect_refusal(contrast("--measure", "f_d"), "no measure \"f_d\"; did you mean f_c?");
+    expect_refusal(contrast("--margin", "0"), "the margin is not between 0 and 1");
+    expect_refusal(contrast("--level", "2"), "the level is not between 0 and 1");
+    expect_refusal(contrast("--baseline", "radio.los=0"),
+                   "--baseline radio.los=0: radio.los: unknown key; did you mean radio.loss?");
+    expect_refusal(contrast("--baseline", "radio.loss=0"), "no arm has one to be held against");
+    expect_refusal({"contrast", "none.sqlite"}, "none.sqlite: there is no such store");
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ protected:
 TEST_F(CommandLineTest, HelpIsThereForEveryCommand) {
     EXPECT_THAT(output_of({"--help"}), HasSubstr("gene-clocks run --task navigation"));
     for (const char* command :
-         {"run", "study", "report", "reproduce", "settings", "export", "check-trace"}) {
+         {"run", "study", "report", "reproduce", "settings", "contrast", "export", "check-trace"}) {
         EXPECT_THAT(output_of({command, "--help"}),
                     HasSubstr(std::string("gene-clocks ") + command))
             << command;
@@ -152,6 +152,23 @@ TEST_F(CommandLineTest, ResultsGoToTheirOwnFolder) {
                "samples.csv"});
     EXPECT_EQ(test::read_all(folder / "runs.csv"), csv);
     EXPECT_THAT(test::read_all(folder / "samples.csv"), testing::StartsWith("study,arm,task,"));
+}
+
+TEST_F(CommandLineTest, ContrastHoldsArmsAgainstEachOther) {
+    output_of({"study", "gecco15", "--quick", "--seeds", "4", "--set", "run.cycles=300",
+               "world.robots=5"});
+    const std::string store = "results/gecco15-quick.sqlite";
+    const std::string table = output_of({"contrast", store, "--csv", "contrast.csv"});
+    EXPECT_THAT(table, HasSubstr("f_c against navigation-gene-clock"));
+    EXPECT_THAT(table, HasSubstr("collection-timestamp"));
+    const std::string csv = output_of({"contrast", store, "--csv", "-"});
+    EXPECT_EQ(test::read_all(folder / "contrast.csv"), csv);
+    EXPECT_THAT(csv, testing::StartsWith("measure,task,profile,arm,baseline,runs,"));
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2);
+    const std::string header = csv.substr(0, csv.find('\n'));
+    const std::string row = csv.substr(header.size() + 1, csv.find('\n', header.size() + 1));
+    EXPECT_EQ(std::count(header.begin(), header.end(), ','),
+              std::count(row.begin(), std::find(row.begin(), row.end(), '\n'), ','));
 }
 
 TEST_F(CommandLineTest, ReproduceLeavesAStoreAndAReport) {

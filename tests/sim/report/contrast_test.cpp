@@ -1,0 +1,153 @@
+#include "contrast.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "input_error.hpp"
+#include "sample_input.hpp"
+#include "statistics/mann_whitney.hpp"
+
+namespace gene_clocks::report {
+namespace {
+
+using experiment::InputError;
+using enum sim::Task;
+using enum sim::Source;
+
+Input input_of(const std::vector<SampleArm>& arms) {
+    Input input;
+    input.study = "sample";
+    for (const SampleArm& arm : arms) input.arms.push_back(sample_arm(arm));
+    return input;
+}
+
+std::vector<double> final_fitness(const Arm& arm) {
+    std::vector<double> values;
+    for (const Run& run : arm.runs) values.push_back(run.result.samples.back().swarm_fitness);
+    return values;
+}
+
+TEST(Contrast, HoldsEachSourceAgainstGeneClocksOfTheSameTask) {
+    const Input input = input_of({{.source = timestamp},
+                                  {},
+                                  {.source = global_counter},
+                                  {.task = collection, .parameters = "C"},
+                                  {.task = collection, .source = timestamp, .parameters = "C"}});
+    const auto contrasts = contrast(input, {});
+    ASSERT_EQ(contrasts.size(), 3U);
+    EXPECT_EQ(contrasts[0].arm, &input.arms[0]);
+    EXPECT_EQ(contrasts[0].baseline, &input.arms[1]);
+    EXPECT_EQ(contrasts[1].arm, &input.arms[2]);
+    EXPECT_EQ(contrasts[1].baseline, &input.arms[1]);
+    EXPECT_EQ(contrasts[2].arm, &input.arms[4]);
+    EXPECT_EQ(contrasts[2].baseline, &input.arms[3]);
+}
+
+TEST(Contrast, OfTheSameRunsIsEquivalent) {
+    const Input input = input_of({{.runs = 64}, {.source = timestamp, .runs = 64}});
+    const Contrast found = contrast(input, {}).front();
+    EXPECT_EQ(found.pairs, 64U);
+    EXPECT_EQ(found.identical, 64U);
+    EXPECT_EQ(found.shift.estimate, 0.0);
+    EXPECT_EQ(found.effect, 0.5);
+    EXPECT_DOUBLE_EQ(found.margin, 0.05 * found.baseline_median);
+    EXPECT_EQ(found.verdict, ContrastVerdict::equivalent);
+    EXPECT_GT(found.power.equivalence, 0.9);
+}
+
+TEST(Contrast, OfRunsThatLieHigherIsDifferent) {
+    const Input input = input_of(
+        {{.runs = 40}, {.source = timestamp, .level = 190.0, .first_seed = 100, .runs = 40}});
+    const Contrast found = contrast(input, {}).front();
+    EXPECT_EQ(found.pairs, 0U);
+    EXPECT_GT(found.shift.interval.lower, found.margin);
+    EXPECT_GT(found.effect, 0.95);
+    EXPECT_EQ(found.verdict, ContrastVerdict::different);
+}
+
+// 4 apart, with a margin of 8 and little noise: both tests find what they seek.
+TEST(Contrast, CanBeBothDifferentAndEquivalent) {
+    const Input input = input_of(
+        {{.runs = 200}, {.source = timestamp, .level = 164.0, .first_seed = 300, .runs = 200}});
+    EXPECT_EQ(contrast(input, {}).front().verdict, ContrastVerdict::small);
+}
+
+TEST(Contrast, OfFewRunsIsUndecided) {
+    const Input input = input_of(
+        {{.runs = 3}, {.source = timestamp, .level = 165.0, .first_seed = 300, .runs = 3}});
+    EXPECT_EQ(contrast(input, {}).front().verdict, ContrastVerdict::undecided);
+}
+
+TEST(Contrast, TakesTheMeasureAskedFor) {
+    const Input input =
+        input_of({{.runs = 9}, {.source = timestamp, .level = 170.0, .first_seed = 20, .runs = 8}});
+    const Contrast found = contrast(input, {.measure = "final_swarm_fitness"}).front();
+    const auto x = final_fitness(input.arms[1]);
+    const auto y = final_fitness(input.arms[0]);
+    EXPECT_EQ(found.runs, 8U);
+    EXPECT_EQ(found.baseline_runs, 9U);
+    EXPECT_EQ(found.difference_p_value, statistics::mann_whitney(x, y).p_value);
+    EXPECT_EQ(found.effect, statistics::vargha_delaney_a(x, y));
+}
+
+// Four contrasts of navigation are one family, the one of collection is another.
+TEST(Contrast, CorrectsOverTheArmsOfATask) {
+    const Input input =
+        input_of({{.runs = 20},
+                  {.source = timestamp, .level = 161.0, .first_seed = 40, .runs = 20},
+                  {.source = global_counter, .level = 158.0, .first_seed = 80, .runs = 20},
+                  {.source = content_hash, .level = 163.0, .first_seed = 120, .runs = 20},
+                  {.source = random_identifier, .level = 150.0, .first_seed = 160, .runs = 20},
+                  {.task = collection, .parameters = "C", .runs = 20},
+                  {.task = collection,
+                   .source = timestamp,
+                   .parameters = "C",
+                   .level = 161.0,
+                   .first_seed = 200,
+                   .runs = 20}});
+    const auto contrasts = contrast(input, {});
+    ASSERT_EQ(contrasts.size(), 5U);
+    std::vector<double> family;
+    for (std::size_t i = 0; i < 4; ++i) family.push_back(contrasts[i].difference_p_value);
+    const auto corrected = statistics::holm(family);
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_EQ(contrasts[i].difference_p_corrected, corrected[i]) << i;
+    EXPECT_GT(corrected[0], family[0]);
+    EXPECT_EQ(contrasts[4].difference_p_corrected, contrasts[4].difference_p_value);
+    EXPECT_EQ(contrasts[4].equivalence_p_corrected, contrasts[4].equivalence_p_value);
+}
+
+TEST(Contrast, FindsItsBaselineBySettings) {
+    Input input = input_of({{}, {}, {}, {.source = timestamp}});
+    input.arms[1].settings.radio.loss = 0.5;
+    input.arms[2].settings.radio.loss = 0.9;
+    input.arms[3].settings.radio.loss = 0.9;
+    std::vector<std::string> without;
+    const auto by_loss = contrast(input, {.baseline = {"radio.loss=0"}}, &without);
+    ASSERT_EQ(by_loss.size(), 2U);
+    EXPECT_EQ(by_loss[0].arm, &input.arms[1]);
+    EXPECT_EQ(by_loss[1].arm, &input.arms[2]);
+    EXPECT_EQ(by_loss[0].baseline, &input.arms[0]);
+    EXPECT_EQ(without, std::vector<std::string>{input.arms[3].name});
+    const auto by_both =
+        contrast(input, {.baseline = {"radio.loss=0", "source=gene-clock"}}, nullptr);
+    ASSERT_EQ(by_both.size(), 3U);
+    EXPECT_EQ(by_both[2].baseline, &input.arms[0]);
+}
+
+TEST(Contrast, RefusesWhatCannotBeHeldAgainstAnything) {
+    const Input two = input_of({{}, {.source = timestamp}});
+    EXPECT_THROW((void)contrast(input_of({{}}), {}), InputError);
+    EXPECT_THROW((void)contrast(Input{}, {}), InputError);
+    EXPECT_THROW((void)contrast(two, {.baseline = {"radio.los=0"}}), InputError);
+    EXPECT_THROW((void)contrast(two, {.measure = "f_d"}), InputError);
+    EXPECT_THROW((void)contrast(two, {.margin_share = 0.0}), InputError);
+    EXPECT_THROW((void)contrast(two, {.level = 1.0}), InputError);
+    Input other_profile = two;
+    other_profile.arms[1].profile = "mended";
+    EXPECT_THROW((void)contrast(other_profile, {}), InputError);
+}
+
+}  // namespace
+}  // namespace gene_clocks::report
