@@ -1,7 +1,5 @@
 """What the tests of the tuning share."""
 
-import json
-import os
 import shutil
 import subprocess
 import sys
