@@ -89,16 +89,19 @@ Genome Agent::make_offspring(Birth& birth, double now_cycles) {
     const auto& first = members[first_index];
     const GenomeId id{robot_, births_++};
     Genome offspring = *first.genome;
+    birth.first_parent = first.genome;
     offspring.id = id;
     if (random_.chance(settings_.p_mate)) {
         const auto& second = members[population_.select_second_parent(
             settings_.second_parent, species, first_index, random_)];
         birth.mated = second.genome != first.genome;
         if (birth.mated) {
+            birth.second_parent = second.genome;
             offspring = crossover(id, {first.genome.get(), first.fitness},
                                   {second.genome.get(), second.fitness}, settings_, random_);
         }
     }
+    birth.inherited = offspring.topology;
     if (random_.chance(settings_.p_mutate)) {
         birth.mutation = mutate(offspring, settings_, *source_, now_cycles, random_);
     }

@@ -85,6 +85,33 @@ bool is_same_initial_gene(const gene_clocks_gene& a, const gene_clocks_gene& b) 
 
 }  // namespace
 
+std::size_t payload_bytes(const Genome& genome) {
+    // A writer without room counts what it is given.
+    gene_clocks_writer bytes{};
+    for (const std::uint64_t field :
+         {static_cast<std::uint64_t>(genome.id.robot), std::uint64_t{genome.id.birth},
+          std::uint64_t{genome.topology->neurons.size()},
+          std::uint64_t{genome.topology->connection_marks.size()}}) {
+        gene_clocks_put_varint(&bytes, field);
+    }
+    gene_clocks_mark<std::uint64_t> last{};
+    const auto add = [&](const gene_clocks_gene& gene) {
+        ++bytes.size;  // the head
+        const std::uint64_t leap = gene.mark.counter - last.counter;
+        if (leap >= gene_clocks_head_far)
+            gene_clocks_put_varint(&bytes, leap - gene_clocks_head_far);
+        if (gene.mark.robot != last.robot) gene_clocks_put_varint(&bytes, gene.mark.robot);
+        last = gene.mark;
+        if (gene.kind != gene_clocks_connection) return gene_clocks_fault{};
+        gene_clocks_put_varint(&bytes, gene.ends.source);
+        gene_clocks_put_varint(&bytes, gene.ends.target);
+        bytes.size += sizeof gene.weight;
+        return gene_clocks_fault{};
+    };
+    for_each_gene(genome, add);
+    return bytes.size;
+}
+
 WireLimits wire_limits(const Topology& initial, const OdneatSettings& settings) {
     WireLimits limits;
     limits.genesis_count = initial.size();

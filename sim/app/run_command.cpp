@@ -36,6 +36,13 @@ double rate(const sim::RunResult& result) {
                                     : 0.0;
 }
 
+nlohmann::ordered_json to_json(const sim::ChronologyMeasures& measures) {
+    auto json = nlohmann::ordered_json::object();
+    sim::for_each_measure(measures,
+                          [&](const char* name, const auto& value) { json[name] = value; });
+    return json;
+}
+
 nlohmann::ordered_json to_json(const RunOptions& options, const FinishedTask& run) {
     const sim::Settings& settings = *run.task->settings;
     const sim::RunResult& result = run.result;
@@ -64,6 +71,7 @@ nlohmann::ordered_json to_json(const RunOptions& options, const FinishedTask& ru
         {"messages_received", counters.messages_received},
         {"genomes_accepted", counters.genomes_accepted},
         {"collisions", counters.collisions},
+        {"chronology", to_json(result.chronology)},
         {"trajectory_hash", fmt::format("{:016x}", result.trajectory_hash)},
         {"robot_steps", result.robot_steps},
         {"cpu_seconds", result.cpu_seconds},
@@ -97,6 +105,11 @@ void print_text(const FinishedTask& run) {
     line("births", fmt::format("{}", run.result.counters.births), "");
     line("matings", fmt::format("{}", run.result.counters.matings),
          "births with two different parents");
+    const sim::ChronologyMeasures& chronology = run.result.chronology;
+    line("genes", fmt::format("{}", chronology.genes),
+         fmt::format("{} of {} pairs marked against cause, {} of {} against time",
+                     chronology.cause_inverted, chronology.caused_pairs, chronology.time_inverted,
+                     chronology.timed_pairs));
     line("trajectory hash", fmt::format("{:016x}", run.result.trajectory_hash), "");
     line("CPU seconds", real(run.result.cpu_seconds),
          fmt::format("{:.1f} M robot-steps per CPU-second", rate(run.result) / 1e6));

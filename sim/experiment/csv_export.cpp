@@ -45,6 +45,8 @@ void write_run(const StoredStudy& study, const StoredArm& arm, const RunRecord& 
     fmt::print(out, "{},{},{},{},{},{},{},{},", counters.births, counters.matings,
                counters.mutations, counters.genes_created, counters.messages_sent,
                counters.messages_received, counters.genomes_accepted, counters.collisions);
+    sim::for_each_measure(run.result.chronology,
+                          [&](const char*, const auto& value) { fmt::print(out, "{},", value); });
     fmt::print(out, "{:016x},{},{},{},{},{},{}\n", run.result.trajectory_hash,
                run.result.robot_steps, run.result.cpu_seconds, run.wall_seconds, run.finished_at,
                run.program_version, run.settings_hash);
@@ -57,9 +59,13 @@ void write_runs_csv(const Store& store, const std::vector<StoredStudy>& studies,
     fmt::print(out,
                "{},f_c,f_b,t_f,f_a,final_swarm_fitness,swarm_fitness_at_10000,species,"
                "added_elements,controller_size,births,matings,mutations,genes_created,"
-               "messages_sent,messages_received,genomes_accepted,collisions,trajectory_hash,"
-               "robot_steps,cpu_seconds,wall_seconds,finished_at,program_version,settings_hash\n",
+               "messages_sent,messages_received,genomes_accepted,collisions,",
                identity_header);
+    sim::for_each_measure(sim::ChronologyMeasures{},
+                          [&](const char* name, const auto&) { fmt::print(out, "{},", name); });
+    fmt::print(out,
+               "trajectory_hash,robot_steps,cpu_seconds,wall_seconds,finished_at,"
+               "program_version,settings_hash\n");
     for (const StoredStudy& study : studies) {
         const auto best = best_by_task(store, study);
         for (const StoredArm& arm : study.arms) {

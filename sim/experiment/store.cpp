@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "input_error.hpp"
 #include "settings_io.hpp"
@@ -85,6 +86,43 @@ std::vector<sim::GeneCreation> read_creations(SQLite::Database& database, std::i
                              rows.getColumn(3).getDouble()});
     }
     return creations;
+}
+
+void insert_chronology(SQLite::Database& database, std::int64_t run,
+                       const sim::ChronologyMeasures& measures) {
+    std::string columns = "run";
+    std::string values = "?";
+    sim::for_each_measure(measures, [&](const char* name, const auto&) {
+        columns += fmt::format(", {}", name);
+        values += ", ?";
+    });
+    SQLite::Statement insert(
+        database, fmt::format("INSERT INTO chronology ({}) VALUES ({})", columns, values));
+    int position = 1;
+    insert.bind(position, run);
+    sim::for_each_measure(measures, [&](const char*, const auto& value) {
+        if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>) {
+            insert.bind(++position, value);
+        } else {
+            insert.bind(++position, as_integer(value));
+        }
+    });
+    insert.exec();
+}
+
+sim::ChronologyMeasures read_chronology(SQLite::Database& database, std::int64_t run) {
+    SQLite::Statement row(database, "SELECT * FROM chronology WHERE run = ?");
+    row.bind(1, run);
+    sim::ChronologyMeasures measures;
+    if (!row.executeStep()) return measures;
+    sim::for_each_measure(measures, [&](const char* name, auto& value) {
+        if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>) {
+            value = row.getColumn(name).getDouble();
+        } else {
+            value = unsigned_column(row, name);
+        }
+    });
+    return measures;
 }
 
 sim::RunCounters read_counters(SQLite::Statement& row) {
@@ -193,6 +231,7 @@ void Store::put_run(const RunRecord& record) {
             record.finished_at, record.program_version);
     const std::int64_t run = database_->getLastInsertRowid();
     insert_samples(*database_, run, result.samples);
+    insert_chronology(*database_, run, result.chronology);
     insert_creations(*database_, run, result.creations);
     transaction.commit();
 }
@@ -260,6 +299,7 @@ std::vector<RunRecord> Store::runs(const StoredStudy& study, const StoredArm& ar
         record.result.cpu_seconds = rows.getColumn("cpu_seconds").getDouble();
         const std::int64_t run = rows.getColumn("id").getInt64();
         record.result.samples = read_samples(*database_, run);
+        record.result.chronology = read_chronology(*database_, run);
         record.result.creations = read_creations(*database_, run);
         record.wall_seconds = rows.getColumn("wall_seconds").getDouble();
         record.finished_at = rows.getColumn("finished_at").getString();

@@ -17,7 +17,7 @@ namespace {
 /// Marks the file as ours: "GnCk". Tools such as file(1) show it.
 constexpr int application_id = 0x476e436b;
 /// Raised whenever the tables change.
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 
 InputError unfit(const std::filesystem::path& file, const std::string& why) {
     return InputError(file.string() + ": " + why);

@@ -58,6 +58,36 @@ CREATE TABLE sample (
     PRIMARY KEY (run, cycle)
 ) STRICT, WITHOUT ROWID;
 
+-- What each run shows of its marking: the fields of ChronologyMeasures, which docs/markings.md defines.
+CREATE TABLE chronology (
+    run INTEGER PRIMARY KEY REFERENCES run (id) ON DELETE CASCADE,
+    genes INTEGER NOT NULL,
+    pairs INTEGER NOT NULL,
+    caused_pairs INTEGER NOT NULL,
+    timed_pairs INTEGER NOT NULL,
+    cause_inverted INTEGER NOT NULL,
+    time_inverted INTEGER NOT NULL,
+    same_collisions INTEGER NOT NULL,
+    different_collisions INTEGER NOT NULL,
+    genome_pairs INTEGER NOT NULL,
+    genome_inverted INTEGER NOT NULL,
+    alignments INTEGER NOT NULL,
+    matching INTEGER NOT NULL,
+    disjoint INTEGER NOT NULL,
+    excess INTEGER NOT NULL,
+    missed_homologies INTEGER NOT NULL,
+    false_homologies INTEGER NOT NULL,
+    crossovers INTEGER NOT NULL,
+    crossovers_missed INTEGER NOT NULL,
+    crossovers_false INTEGER NOT NULL,
+    crossovers_repeated INTEGER NOT NULL,
+    stamp_smallest INTEGER NOT NULL,
+    stamp_mean REAL NOT NULL,
+    stamp_largest INTEGER NOT NULL,
+    bytes_sent INTEGER NOT NULL,
+    stamp_bytes INTEGER NOT NULL
+) STRICT;
+
 -- When each gene arose, in order, for runs whose settings ask for it.
 CREATE TABLE creation (
     run INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,

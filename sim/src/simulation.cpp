@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "chronology/chronology.hpp"
 #include "gene_clocks/neat/agent.hpp"
 #include "observed_source.hpp"
 #include "radio.hpp"
@@ -52,29 +53,6 @@ void check(const Settings& settings, const Arena& arena) {
             "world.translation_px must be less than the frame's thickness and the robot's radius");
 }
 
-/// Writes down when each gene was created.
-class CreationLog final : public RunObserver {
-public:
-    /// Both must outlive the log; `next`, which may be null, is told of everything too.
-    CreationLog(std::vector<GeneCreation>& creations, RunObserver* next)
-        : creations_(creations), next_(next) {}
-
-    void gene_marked(RobotId robot, InnovationNumber mark, double now_cycles) override {
-        creations_.push_back({mark, robot, now_cycles});
-        if (next_ != nullptr) next_->gene_marked(robot, mark, now_cycles);
-    }
-    void message_sent(RobotId robot, Stamp stamp, InnovationNumber newest) override {
-        if (next_ != nullptr) next_->message_sent(robot, stamp, newest);
-    }
-    void message_admitted(RobotId robot, std::uint64_t message, Stamp stamp) override {
-        if (next_ != nullptr) next_->message_admitted(robot, message, stamp);
-    }
-
-private:
-    std::vector<GeneCreation>& creations_;
-    RunObserver* next_;
-};
-
 InnovationNumber last_mark(const neat::Genome& genome) {
     const neat::Topology& topology = *genome.topology;
     return std::max(topology.neurons.back().mark, topology.connection_marks.back());
@@ -103,14 +81,15 @@ private:
 
     const Settings settings_;
     const InputLayout layout_;
+    const std::shared_ptr<const neat::Topology> initial_;  // that all robots start from
     neat::RandomStream placement_random_;
     neat::RandomStream order_random_;
     neat::RandomStream radio_random_;
     World world_;
     Radio radio_;
     RunResult result_;
-    CreationLog creation_log_;
-    RunObserver* observer_;                // null: nobody watches
+    RunObserver* observer_;  // null: nobody watches
+    Chronology chronology_;
     std::vector<neat::Agent> agents_;      // refer to settings_
     std::vector<std::uint32_t> order_;     // of broadcasts and moves, shuffled anew each cycle
     std::vector<std::uint32_t> depleted_;  // whose active genome is to be replaced in this cycle
@@ -129,6 +108,7 @@ Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64
                        RunObserver* observer)
     : settings_(settings),
       layout_(settings.task),
+      initial_(neat::make_initial_topology(layout_.count(), output_count)),
       placement_random_(make_stream(seed, Stream::placement)),
       order_random_(make_stream(seed, Stream::order)),
       radio_random_(make_stream(seed, Stream::radio)),
@@ -138,12 +118,10 @@ Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64
                  settings.world.robot_radius_px),
              placement_random_),
       radio_(settings.radio),
-      creation_log_(result_.creations, observer),
-      observer_(settings.run.record_creation_times ? &creation_log_ : observer) {
+      observer_(observer),
+      chronology_(world_.robots(), settings.radio.delay_cycles, initial_) {
     const std::size_t robots = world_.robots();
-    const auto topology = neat::make_initial_topology(layout_.count(), output_count);
-    const std::uint64_t genesis = genesis_count(settings_);
-    SourceFactory sources(settings_, genesis, seed);
+    SourceFactory sources(settings_, genesis_count(settings_), seed);
     agents_.reserve(robots);
     for (std::size_t i = 0; i < robots; ++i) {
         const RobotId robot{static_cast<std::uint32_t>(i + 1)};
@@ -151,7 +129,7 @@ Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64
         if (observer_ != nullptr) {
             source = std::make_unique<ObservedSource>(std::move(source), robot, *observer_);
         }
-        agents_.emplace_back(robot, settings_.odneat, topology, std::move(source),
+        agents_.emplace_back(robot, settings_.odneat, initial_, std::move(source),
                              make_stream(seed, Stream::robots, i));
     }
     order_.resize(robots);
@@ -168,6 +146,7 @@ Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64
 }
 
 void Simulation::run_cycle(std::int64_t cycle) {
+    chronology_.begin_cycle(cycle);
     world_.replace_items(placement_random_);
     if (cycle % settings_.run.sample_period_cycles == 0) log_sample(cycle);
     pick_up_items();
@@ -233,6 +212,7 @@ void Simulation::broadcast(std::uint32_t sender) {
     if (sent == nullptr) return;
     const neat::Message& message = *sent;
     const std::uint64_t number = result_.counters.messages_sent++;
+    chronology_.sent(sender, number, *message.genome, message.stamp);
     if (observer_ != nullptr) {
         observer_->message_sent(agent.robot(), message.stamp, last_mark(*message.genome));
     }
@@ -252,9 +232,15 @@ void Simulation::receive(std::uint32_t receiver, const neat::Message& message,
     ++result_.counters.messages_received;
     neat::Agent& agent = agents_[receiver];
     const neat::Reception reception = agent.receive(message);
-    if (reception == neat::Reception::accepted) ++result_.counters.genomes_accepted;
-    if (observer_ != nullptr && reception != neat::Reception::refused &&
-        reception != neat::Reception::identity_conflict) {
+    if (reception == neat::Reception::refused || reception == neat::Reception::identity_conflict) {
+        return;
+    }
+    chronology_.admitted(receiver, number);
+    if (reception == neat::Reception::accepted) {
+        ++result_.counters.genomes_accepted;
+        chronology_.accepted(agent.active(), *message.genome);
+    }
+    if (observer_ != nullptr) {
         observer_->message_admitted(agent.robot(), number, agent.source().stamp());
     }
 }
@@ -296,6 +282,7 @@ void Simulation::spend_energy() {
 void Simulation::replace_depleted(std::int64_t cycle) {
     for (const std::uint32_t i : depleted_) {
         const neat::Birth birth = agents_[i].replace(static_cast<double>(cycle));
+        chronology_.born(i, birth, agents_[i].active());
         ++result_.counters.births;
         if (birth.mated) ++result_.counters.matings;
         if (birth.mutation != neat::Mutation::none) ++result_.counters.mutations;
@@ -308,6 +295,11 @@ RunResult Simulation::take_result() {
     hash_.add(world_.x_px());
     hash_.add(world_.y_px());
     result_.trajectory_hash = hash_.digest();
+    for (const neat::Agent& agent : agents_) {
+        chronology_.ended(agent.active(), agent.source().stamp());
+    }
+    result_.chronology = chronology_.measures();
+    if (settings_.run.record_creation_times) result_.creations = chronology_.creations();
     return std::move(result_);
 }
 

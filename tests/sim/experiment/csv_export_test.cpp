@@ -63,6 +63,8 @@ TEST_F(CsvTest, HasALineForEachRun) {
     EXPECT_EQ(rows[2].at("source"), "timestamp");
     EXPECT_EQ(rows[2].at("parameters"), "A");
     EXPECT_EQ(rows[1].at("births"), "5");
+    EXPECT_EQ(rows[1].at("genes"), "6");  // see example_run
+    EXPECT_EQ(rows[1].at("stamp_bytes"), "30");
     EXPECT_EQ(rows[1].at("trajectory_hash"), "f000000000000005");
     EXPECT_EQ(rows[1].at("settings_hash"), study.arms[0].settings_hash);
     EXPECT_EQ(rows[1].at("swarm_fitness_at_10000"), "");  // the runs are too short

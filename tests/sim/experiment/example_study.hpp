@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 #include "document.hpp"
 #include "store.hpp"
@@ -42,6 +43,11 @@ inline experiment::RunRecord example_run(const experiment::Arm& arm, std::uint64
     }
     record.result.counters = {1, 2, 3, 4, 5, 6, 7, 8};
     record.result.counters.births = seed;
+    // Each field its own value, so that none can pass for another.
+    sim::for_each_measure(record.result.chronology,
+                          [next = seed](const char*, auto& value) mutable {
+                              value = static_cast<std::remove_reference_t<decltype(value)>>(++next);
+                          });
     record.result.creations = {{{seed, RobotId{7}}, RobotId{7}, 0.5},
                                {{~seed, RobotId{0xffff'fffe}}, RobotId{2}, 1.5}};
     record.result.trajectory_hash = 0xf000'0000'0000'0000 + seed;

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "example_study.hpp"
@@ -89,6 +90,15 @@ TEST_F(StoreTest, KeepsStudiesAndRuns) {
                           c.messages_sent, c.messages_received, c.genomes_accepted, c.collisions};
     };
     EXPECT_EQ(counters(run.result.counters), counters(expected.result.counters));
+    const auto chronology = [](const sim::RunResult& result) {
+        std::map<std::string, double> values;
+        sim::for_each_measure(result.chronology, [&](const char* name, const auto& value) {
+            values[name] = static_cast<double>(value);
+        });
+        return values;
+    };
+    EXPECT_EQ(chronology(run.result).size(), 25U);
+    EXPECT_EQ(chronology(run.result), chronology(expected.result));
     const auto creations = [](const sim::RunResult& result) {
         std::vector<std::tuple<std::uint64_t, RobotId, RobotId, double>> all;
         for (const sim::GeneCreation& c : result.creations) {
@@ -192,6 +202,12 @@ TEST_F(StoreTest, RefusesAnotherVersion) {
     { Store::open_for_writing(file); }
     change("PRAGMA user_version = 99");
     expect_refusal("is a store of format 99; gene-clocks");
+}
+
+TEST_F(StoreTest, RefusesAStoreFromBeforeTheMeasuresOfChronology) {
+    { Store::open_for_writing(file); }
+    change("DROP TABLE chronology; PRAGMA user_version = 1");
+    expect_refusal("is a store of format 1; gene-clocks");
 }
 
 TEST_F(StoreTest, RefusesADamagedFile) {

@@ -44,6 +44,9 @@ enum class Reception : std::uint8_t {
 struct Birth {
     bool mated = false;  ///< it has two different parents
     Mutation mutation = Mutation::none;
+    std::shared_ptr<const Genome> first_parent;   ///< never null after a birth
+    std::shared_ptr<const Genome> second_parent;  ///< null unless mated
+    std::shared_ptr<const Topology> inherited;    ///< its structure before the mutation
 };
 
 /// One robot's odNEAT (paper, Algorithm 1), as a state machine without I/O, threads or time.

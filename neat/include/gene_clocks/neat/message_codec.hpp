@@ -23,6 +23,10 @@ struct ReceivedMessage {
 /// The limits of a fleet that runs odNEAT with these settings from this initial topology.
 WireLimits wire_limits(const Topology& initial, const OdneatSettings& settings);
 
+/// The bytes of a genome's payload, whatever marked its genes: also where no codec would take it,
+/// since those of other sources than gene clocks may come before what they depend on.
+std::size_t payload_bytes(const Genome& genome);
+
 /// Turns messages into frames of the wire format and back (docs/wire-format.md): the door between
 /// an agent and strangers. What comes out of `decode` is a valid message, whatever went in; what
 /// `encode` writes decodes to the same message, and no other bytes do.

@@ -8,6 +8,7 @@
 
 #include "gene_clocks/innovation_number.hpp"
 #include "gene_clocks/sim/arena.hpp"
+#include "gene_clocks/sim/chronology_measures.hpp"
 #include "gene_clocks/sim/settings.hpp"
 
 namespace gene_clocks::sim {
@@ -47,6 +48,7 @@ struct GeneCreation {
 struct RunResult {
     std::vector<Sample> samples;
     RunCounters counters;
+    ChronologyMeasures chronology;
     std::vector<GeneCreation> creations;  ///< in order; empty unless record_creation_times is set
     std::uint64_t trajectory_hash{};      ///< XXH3 of all positions and fitnesses at the samples
     std::uint64_t robot_steps{};
