@@ -228,14 +228,11 @@ Homology GeneOrigins::align(const neat::Topology& first, const neat::Topology& s
 }
 
 bool GeneOrigins::repeats_structure(const neat::Topology& topology) {
-    const TopologyGenes& genes = of(topology);
-    for (const auto* list : {&genes.neurons, &genes.connections}) {
-        scratch_first_.clear();
-        for (const GeneIndex gene : *list) scratch_first_.push_back(structures_[gene]);
-        std::ranges::sort(scratch_first_);
-        if (std::ranges::adjacent_find(scratch_first_) != scratch_first_.end()) return true;
-    }
-    return false;
+    // A genome joins two neurons only once, so that no connection is there twice if no neuron is.
+    scratch_first_.clear();
+    for (const GeneIndex gene : of(topology).neurons) scratch_first_.push_back(structures_[gene]);
+    std::ranges::sort(scratch_first_);
+    return std::ranges::adjacent_find(scratch_first_) != scratch_first_.end();
 }
 
 }  // namespace gene_clocks::sim

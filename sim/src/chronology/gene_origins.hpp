@@ -59,7 +59,7 @@ public:
 
     Homology align(const neat::Topology& first, const neat::Topology& second);
 
-    /// Whether two of its neurons, or two of its connections, are the same innovation.
+    /// Whether two of its genes are the same innovation.
     bool repeats_structure(const neat::Topology& topology);
 
     std::size_t initial_genes() const { return initial_genes_; }
