@@ -72,7 +72,7 @@ void print_table(const std::vector<Contrast>& contrasts, const report::ContrastP
             fmt::print("{}{} against {} (median {:.2f}, {} runs; margin {:.2f})\n",
                        previous == nullptr ? "" : "\n", plan.measure, row.baseline->name,
                        row.baseline_median, row.baseline_runs, row.margin);
-            fmt::print("  {:<{}} {:>5} {:>9} {:>8}  {:<17} {:<17} {:>6} {:>6} {:>6}  {}\n", "arm",
+            fmt::print("  {:<{}} {:>5} {:>9} {:>8}  {:<17} {:<17} {:>7} {:>6} {:>6}  {}\n", "arm",
                        width, "runs", "identical", "median", "shift [95 %]", "A [95 %]", "p diff.",
                        "p eq.", "power", "verdict");
         }
