@@ -1,5 +1,7 @@
 #include "gene_clocks/neat/message_codec.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cassert>
 #include <utility>
 
@@ -24,51 +26,71 @@ gene_clocks_gene wire_gene(const NeuronGene& neuron) {
     return gene;
 }
 
-/// Index of a neuron by its mark; where there is none, one that no genome has, so that the checks
-/// refuse it. Initial neurons usually have the mark index + 1, and a new connection joins the
-/// newest neuron as often as not.
-std::uint16_t index_of(const Topology& topology, InnovationNumber mark, std::size_t newest) {
-    const auto& neurons = topology.neurons;
-    if (newest < neurons.size() && neurons[newest].mark == mark) {
-        return static_cast<std::uint16_t>(newest);
+/// The neurons of a genome by their marks: a hash table with linear probing, at least half empty,
+/// in memory that is kept.
+class NeuronIndex {
+public:
+    NeuronIndex(std::vector<std::uint16_t>& places, const std::vector<NeuronGene>& neurons)
+        : places_(places), neurons_(neurons) {
+        places_.assign(std::bit_ceil(2 * neurons.size() + 1), none);
     }
-    const std::uint64_t initial = mark.counter - 1;
-    if (initial < neurons.size() && neurons[initial].mark == mark) {
-        return static_cast<std::uint16_t>(initial);
+
+    void add(std::size_t neuron) {
+        places_[place_of(neurons_[neuron].mark)] = static_cast<std::uint16_t>(neuron);
     }
-    return static_cast<std::uint16_t>(topology.find_neuron(mark).value_or(UINT16_MAX));
+    /// Index of a neuron that was added; where there is none, one that no genome has, so that the
+    /// checks refuse it.
+    std::uint16_t find(InnovationNumber mark) const { return places_[place_of(mark)]; }
+
+private:
+    static constexpr std::uint16_t none = UINT16_MAX;
+
+    std::size_t place_of(InnovationNumber mark) const {
+        const std::uint64_t key =
+            mark.counter + (std::uint64_t{static_cast<std::uint32_t>(mark.robot)} << 32);
+        std::size_t place = key * 0x9e3779b97f4a7c15u >> 40;
+        while (true) {
+            place &= places_.size() - 1;
+            if (places_[place] == none || neurons_[places_[place]].mark == mark) return place;
+            ++place;
+        }
+    }
+
+    std::vector<std::uint16_t>& places_;
+    const std::vector<NeuronGene>& neurons_;
+};
+
+gene_clocks_gene wire_gene(const Genome& genome, std::size_t connection, const NeuronIndex& index) {
+    const Topology& topology = *genome.topology;
+    const ConnectionEnds& ends = topology.connection_ends[connection];
+    gene_clocks_gene gene{};
+    gene.mark = topology.connection_marks[connection].kernel_mark();
+    gene.kind = gene_clocks_connection;
+    gene.is_enabled = genome.is_enabled(connection);
+    gene.is_recurrent = ends.recurrent;
+    gene.ends = {index.find(ends.source), index.find(ends.target)};
+    gene.weight = genome.weights[connection];
+    return gene;
 }
 
-/// Calls `visit(gene)` for all genes in the order of marks, neurons before connections of the same
-/// mark, until it reports a fault. Weights and enabled flags are the genome's.
-template <class Visit>
-gene_clocks_fault for_each_gene(const Genome& genome, Visit visit) {
+/// Writes the genes from these on to `genes`, in the order of marks, neurons before connections of
+/// the same mark. `places` is scratch memory.
+void merge_genes(const Genome& genome, std::size_t neuron, std::size_t connection,
+                 gene_clocks_gene* genes, std::vector<std::uint16_t>& places) {
     const Topology& topology = *genome.topology;
-    std::size_t neuron = 0;
-    std::size_t connection = 0;
-    gene_clocks_fault fault{};
-    while (!fault.error &&
-           (neuron < topology.neurons.size() || connection < genome.connections())) {
+    NeuronIndex index(places, topology.neurons);
+    for (std::size_t i = 0; i < neuron; ++i) index.add(i);
+    while (neuron < topology.neurons.size() || connection < genome.connections()) {
         if (connection == genome.connections() ||
             (neuron < topology.neurons.size() &&
              !(topology.connection_marks[connection] < topology.neurons[neuron].mark))) {
-            fault = visit(wire_gene(topology.neurons[neuron++]));
-            continue;
+            index.add(neuron);
+            *genes++ = wire_gene(topology.neurons[neuron++]);
+        } else {
+            *genes++ = wire_gene(genome, connection, index);
+            ++connection;
         }
-        const ConnectionEnds& ends = topology.connection_ends[connection];
-        const std::size_t newest = neuron - 1;
-        gene_clocks_gene gene{};
-        gene.mark = topology.connection_marks[connection].kernel_mark();
-        gene.kind = gene_clocks_connection;
-        gene.is_enabled = genome.is_enabled(connection);
-        gene.is_recurrent = ends.recurrent;
-        gene.ends = {index_of(topology, ends.source, newest),
-                     index_of(topology, ends.target, newest)};
-        gene.weight = genome.weights[connection];
-        fault = visit(gene);
-        ++connection;
     }
-    return fault;
 }
 
 /// What all genomes of a fleet share of an initial gene; its weight and whether it is enabled are
@@ -122,117 +144,135 @@ WireLimits wire_limits(const Topology& initial, const OdneatSettings& settings) 
 
 MessageCodec::MessageCodec(std::shared_ptr<const Topology> initial, const WireLimits& limits)
     : initial_(std::move(initial)),
+      initial_genes_(initial_->size()),
       limits_(limits),
       kernel_limits_(limits.kernel_limits()),
+      genes_(std::size_t{limits.neurons} + limits.connections),
       joined_(GENE_CLOCKS_JOINED_WORDS(limits.connections)) {
     const std::vector<float> any(initial_->connection_marks.size());
-    for_each_gene({{}, initial_, any, any}, [&](const gene_clocks_gene& gene) {
-        initial_genes_.push_back(gene);
-        return gene_clocks_fault{};
-    });
+    merge_genes({{}, initial_, any, any}, 0, 0, initial_genes_.data(), places_);
 }
 
-/// A genome that is being read.
-struct MessageCodec::Reading {
-    gene_clocks_genome_reader reader;
-    std::shared_ptr<Topology> topology;  // null where it is the initial one
-    Genome genome;
-    std::size_t genes = 0;
-};
+// ---- Reading ------------------------------------------------------------------------------------
 
-kernel::gene_clocks_fault MessageCodec::read_gene(Reading& reading) const {
-    const std::size_t start = reading.reader.bytes.offset;
+/// The first of so many genes in `genes_` that is no initial gene where one must be, or is one
+/// where none may be; `genes` where initial genes are missing.
+std::optional<std::size_t> MessageCodec::first_foreign_gene(std::size_t genes) const {
+    const std::size_t initial = std::min(genes, initial_genes_.size());
+    for (std::size_t i = 0; i < initial; ++i) {
+        if (!is_same_initial_gene(genes_[i], initial_genes_[i])) return i;
+    }
+    for (std::size_t i = initial; i < genes; ++i) {
+        if (genes_[i].mark.robot == 0) return i;
+    }
+    return genes < initial_genes_.size() ? std::optional(genes) : std::nullopt;
+}
+
+/// Where a gene begins in a payload that is a genome. Only for what is refused: reads it again.
+std::size_t MessageCodec::offset_of_gene(const Frame& frame, std::size_t index) {
+    gene_clocks_genome_reader reader{};
+    gene_clocks_open_genome(&reader, frame.payload.data(), frame.payload.size(), frame.stamp.value,
+                            &kernel_limits_, joined_.data());
     gene_clocks_gene gene{};
-    const auto fault = gene_clocks_next_gene(&reading.reader, &gene);
-    if (fault.error) return fault;
-    const std::size_t index = reading.genes++;
-    const bool is_initial = index < initial_genes_.size();
-    if (is_initial ? !is_same_initial_gene(gene, initial_genes_[index]) : gene.mark.robot == 0) {
-        return {gene_clocks_wire_genesis, start};
+    while (index-- > 0) gene_clocks_next_gene(&reader, &gene);
+    return reader.bytes.offset;
+}
+
+/// The topology of the genes in `genes_`, which are valid and begin with the initial ones.
+std::shared_ptr<const Topology> MessageCodec::topology_of(const gene_clocks_genome& counts) const {
+    const std::size_t genes = std::size_t{counts.neurons} + counts.connections;
+    if (genes == initial_genes_.size()) return initial_;
+    const auto topology = std::make_shared<Topology>();
+    const auto begin_with = [](auto& list, const auto& initial, std::size_t size) {
+        list.reserve(size);
+        list.insert(list.end(), initial.begin(), initial.end());
+    };
+    begin_with(topology->neurons, initial_->neurons, counts.neurons);
+    begin_with(topology->connection_marks, initial_->connection_marks, counts.connections);
+    begin_with(topology->connection_ends, initial_->connection_ends, counts.connections);
+    topology->inputs = initial_->inputs;
+    topology->outputs = initial_->outputs;
+    topology->initial_connections = initial_->initial_connections;
+    for (std::size_t i = initial_genes_.size(); i < genes; ++i) {
+        const gene_clocks_gene& gene = genes_[i];
+        if (gene.kind != gene_clocks_connection) {
+            topology->neurons.push_back({mark_of(gene), static_cast<NeuronKind>(gene.kind)});
+            continue;
+        }
+        topology->connection_marks.push_back(mark_of(gene));
+        topology->connection_ends.push_back({topology->neurons[gene.ends.source].mark,
+                                             topology->neurons[gene.ends.target].mark,
+                                             gene.is_recurrent});
     }
-    if (gene.kind == gene_clocks_connection) {
-        reading.genome.weights.push_back(gene.weight);
-        reading.genome.enabled.push_back(gene.is_enabled ? 1.0f : 0.0f);
-    }
-    if (!reading.topology) return fault;
-    Topology& topology = *reading.topology;
-    if (gene.kind == gene_clocks_connection) {
-        topology.connection_marks.push_back(mark_of(gene));
-        topology.connection_ends.push_back({topology.neurons[gene.ends.source].mark,
-                                            topology.neurons[gene.ends.target].mark,
-                                            gene.is_recurrent});
-    } else {
-        topology.neurons.push_back({mark_of(gene), static_cast<NeuronKind>(gene.kind)});
-    }
-    return fault;
+    return topology;
 }
 
 WireResult<ReceivedMessage> MessageCodec::decode(std::span<const std::uint8_t> bytes) {
     const auto frame = decode_frame(bytes, limits_);
     if (!frame) return frame.fault();
-    // Faults within the payload are reported where they lie in the frame.
-    const auto payload_start = static_cast<std::size_t>(frame->payload.data() - bytes.data());
-    const auto refused = [&](gene_clocks_fault fault) {
-        return WireFault::from({fault.error, payload_start + fault.offset});
-    };
-    Reading reading{};
+    gene_clocks_genome counts{};
     auto fault =
-        gene_clocks_open_genome(&reading.reader, frame->payload.data(), frame->payload.size(),
-                                frame->stamp.value, &kernel_limits_, joined_.data());
-    if (fault.error) return refused(fault);
-    const gene_clocks_genome counts = reading.reader.checks.genome;
-    reading.genome.id = {RobotId{counts.robot}, counts.birth};
-    reading.genome.weights.reserve(counts.connections);
-    reading.genome.enabled.reserve(counts.connections);
-    if (counts.neurons != initial_->neurons.size() ||
-        counts.connections != initial_->connection_marks.size()) {
-        reading.topology = std::make_shared<Topology>();
-        reading.topology->neurons.reserve(counts.neurons);
-        reading.topology->connection_marks.reserve(counts.connections);
-        reading.topology->connection_ends.reserve(counts.connections);
-        reading.topology->inputs = initial_->inputs;
-        reading.topology->outputs = initial_->outputs;
-        reading.topology->initial_connections = initial_->initial_connections;
+        gene_clocks_decode_genome(frame->payload.data(), frame->payload.size(), frame->stamp.value,
+                                  &kernel_limits_, &counts, genes_.data(), joined_.data());
+    const std::size_t genes = std::size_t{counts.neurons} + counts.connections;
+    if (!fault.error) {
+        if (const auto foreign = first_foreign_gene(genes)) {
+            fault = {gene_clocks_wire_genesis, offset_of_gene(*frame, *foreign)};
+        }
     }
-    while (gene_clocks_genes_left(&reading.reader) > 0) {
-        fault = read_gene(reading);
-        if (fault.error) return refused(fault);
+    if (fault.error) {  // where it lies in the frame
+        const auto payload = static_cast<std::size_t>(frame->payload.data() - bytes.data());
+        return WireFault::from({fault.error, payload + fault.offset});
     }
-    fault = gene_clocks_close_genome(&reading.reader);
-    if (fault.error) return refused(fault);
-    if (reading.genes < initial_genes_.size()) {
-        return refused({gene_clocks_wire_genesis, frame->payload.size()});
+    auto genome = std::make_shared<Genome>();
+    genome->id = {RobotId{counts.robot}, counts.birth};
+    genome->topology = topology_of(counts);
+    std::vector<float> weights(counts.connections);
+    std::vector<float> enabled(counts.connections);
+    std::size_t connection = 0;
+    for (const gene_clocks_gene& gene : std::span(genes_).first(genes)) {
+        if (gene.kind != gene_clocks_connection) continue;
+        weights[connection] = gene.weight;
+        enabled[connection] = static_cast<float>(gene.is_enabled);
+        ++connection;
     }
-    if (reading.topology) {
-        reading.genome.topology = std::move(reading.topology);
-    } else {
-        reading.genome.topology = initial_;
-    }
-    return ReceivedMessage{
-        frame->sender,
-        {std::make_shared<const Genome>(std::move(reading.genome)), frame->energy, frame->stamp}};
+    genome->weights = std::move(weights);
+    genome->enabled = std::move(enabled);
+    return ReceivedMessage{frame->sender, {std::move(genome), frame->energy, frame->stamp}};
 }
 
-kernel::gene_clocks_fault MessageCodec::write_genes(gene_clocks_genome_writer& writer,
-                                                    const Genome& genome) const {
-    const Topology& topology = *genome.topology;
-    std::size_t genes = 0;
-    const auto fault = for_each_gene(genome, [&](const gene_clocks_gene& gene) {
-        const std::size_t index = genes++;
-        const bool is_initial = index < initial_genes_.size();
-        if (is_initial ? !is_same_initial_gene(gene, initial_genes_[index])
-                       : gene.mark.robot == 0) {
-            return gene_clocks_fault{gene_clocks_wire_genesis, writer.bytes.size};
-        }
-        return gene_clocks_put_gene(&writer, &gene);
-    });
-    if (fault.error) return fault;
-    if (genes < initial_genes_.size() || topology.inputs != initial_->inputs ||
-        topology.outputs != initial_->outputs ||
-        topology.initial_connections != initial_->initial_connections) {
-        return {gene_clocks_wire_genesis, writer.bytes.size};
+// ---- Writing ------------------------------------------------------------------------------------
+
+bool MessageCodec::has_initial_genes(const Topology& topology) const {
+    if (&topology == initial_.get()) return true;
+    const auto begins_with = [](const auto& list, const auto& initial) {
+        return list.size() >= initial.size() &&
+               std::equal(initial.begin(), initial.end(), list.begin());
+    };
+    return topology.inputs == initial_->inputs && topology.outputs == initial_->outputs &&
+           topology.initial_connections == initial_->initial_connections &&
+           begins_with(topology.neurons, initial_->neurons) &&
+           begins_with(topology.connection_marks, initial_->connection_marks) &&
+           begins_with(topology.connection_ends, initial_->connection_ends);
+}
+
+/// Puts a genome's genes into `genes_`, which has room for them; false where it does not begin with
+/// the initial ones.
+bool MessageCodec::take_genes(const Genome& genome) {
+    if (!has_initial_genes(*genome.topology)) return false;
+    std::copy(initial_genes_.begin(), initial_genes_.end(), genes_.begin());
+    std::size_t connection = 0;
+    for (std::size_t i = 0; i < initial_genes_.size(); ++i) {
+        if (genes_[i].kind != gene_clocks_connection) continue;
+        genes_[i].is_enabled = genome.is_enabled(connection);
+        genes_[i].weight = genome.weights[connection];
+        ++connection;
     }
-    return gene_clocks_end_genome(&writer);
+    merge_genes(genome, initial_->neurons.size(), initial_->connection_marks.size(),
+                genes_.data() + initial_genes_.size(), places_);
+    return std::none_of(genes_.begin() + static_cast<std::ptrdiff_t>(initial_genes_.size()),
+                        genes_.begin() + static_cast<std::ptrdiff_t>(genome.topology->size()),
+                        [](const gene_clocks_gene& gene) { return gene.mark.robot == 0; });
 }
 
 WireResult<std::span<const std::uint8_t>> MessageCodec::encode(RobotId sender,
@@ -246,20 +286,24 @@ WireResult<std::span<const std::uint8_t>> MessageCodec::encode(RobotId sender,
     if (neurons > limits_.neurons || connections > limits_.connections) {
         return WireFault{WireError::too_many_genes, 0};
     }
+    if (!take_genes(genome)) return WireFault{WireError::genesis, 0};
     const std::size_t room = frame_overhead_bytes + genome_payload_bytes_max(neurons, connections);
     if (buffer_.size() < room) buffer_.resize(room);
 
     // The payload first, behind the longest header; the frame's writer moves it to its place.
-    std::uint8_t* const payload = buffer_.data() + frame_overhead_bytes;
+    const auto payload = std::span(buffer_).subspan(frame_overhead_bytes);
     gene_clocks_genome_writer writer{};
     auto fault = gene_clocks_begin_genome(
-        &writer, payload, buffer_.size() - frame_overhead_bytes,
+        &writer, payload.data(), payload.size(),
         {static_cast<std::uint32_t>(genome.id.robot), genome.id.birth,
          static_cast<std::uint16_t>(neurons), static_cast<std::uint16_t>(connections)},
         message.stamp.value, &kernel_limits_, joined_.data());
-    if (!fault.error) fault = write_genes(writer, genome);
+    for (std::size_t i = 0; !fault.error && i < neurons + connections; ++i) {
+        fault = gene_clocks_put_gene(&writer, &genes_[i]);
+    }
+    if (!fault.error) fault = gene_clocks_end_genome(&writer);
     if (fault.error) return WireFault::from(fault);
-    return encode_frame({sender, message.stamp, message.energy, {payload, writer.bytes.size}},
+    return encode_frame({sender, message.stamp, message.energy, payload.first(writer.bytes.size)},
                         buffer_, limits_);
 }
 

@@ -106,6 +106,11 @@ GENE_CLOCKS_FUNCTION void gene_clocks_put_byte(struct gene_clocks_writer* writer
 GENE_CLOCKS_FUNCTION enum gene_clocks_wire_error gene_clocks_get_varint(
     struct gene_clocks_reader* reader, unsigned bits, uint64_t* value) {
     size_t at = reader->offset;
+    if (at < reader->size && reader->bytes[at] < 0x80u) { /* as most numbers are */
+        *value = reader->bytes[at];
+        reader->offset = at + 1;
+        return gene_clocks_wire_ok;
+    }
     uint64_t result = 0;
     for (unsigned shift = 0;; shift += 7) {
         if (at == reader->size) return gene_clocks_wire_truncated;

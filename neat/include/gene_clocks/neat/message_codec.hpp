@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,30 +37,36 @@ std::size_t payload_bytes(const Genome& genome);
 class MessageCodec {
 public:
     /// `initial` is the topology that all robots start from; its marks are the genesis marks
-    /// 1…limits.genesis_count.
+    /// 1…limits.genesis_count. Keeps 32 bytes of memory for each gene that the limits allow, and
+    /// 16 more for each connection.
     MessageCodec(std::shared_ptr<const Topology> initial, const WireLimits& limits);
 
     /// The frame that carries `message`; valid until the next call. Refused is what `decode` would
     /// refuse. Precondition: the arrays of the genome are parallel.
     WireResult<std::span<const std::uint8_t>> encode(RobotId sender, const Message& message);
 
-    /// The message in a frame; refused ones leave no trace. Memory that it takes is bounded by
-    /// the limits, and by 32 bytes for each byte of the frame. A genome with no genes but the
-    /// initial ones shares `initial`.
+    /// The message in a frame; refused ones leave no trace, and no memory is allocated for them.
+    /// What the message takes is bounded by the limits, and by 32 bytes for each byte of the frame.
+    /// A genome with no genes but the initial ones shares `initial`.
     WireResult<ReceivedMessage> decode(std::span<const std::uint8_t> frame);
 
 private:
-    struct Reading;
-    kernel::gene_clocks_fault read_gene(Reading& reading) const;
-    kernel::gene_clocks_fault write_genes(kernel::gene_clocks_genome_writer& writer,
-                                          const Genome& genome) const;
+    std::optional<std::size_t> first_foreign_gene(std::size_t genes) const;
+    std::size_t offset_of_gene(const Frame& frame, std::size_t index);
+    bool has_initial_genes(const Topology& topology) const;
+    std::shared_ptr<const Topology> topology_of(const kernel::gene_clocks_genome& counts) const;
+    bool take_genes(const Genome& genome);
 
     std::shared_ptr<const Topology> initial_;
     std::vector<kernel::gene_clocks_gene> initial_genes_;  // in the order of marks
     WireLimits limits_;
     kernel::gene_clocks_wire_limits kernel_limits_;
-    std::vector<std::uint32_t> joined_;  // scratch, for the checks
-    std::vector<std::uint8_t> buffer_;   // scratch: the frame that was written last
+    // Scratch: the genes that were read or written last, what checks need, neurons by their marks,
+    // the frame that was written last.
+    std::vector<kernel::gene_clocks_gene> genes_;
+    std::vector<std::uint32_t> joined_;
+    std::vector<std::uint16_t> places_;
+    std::vector<std::uint8_t> buffer_;
 };
 
 }  // namespace gene_clocks::neat
