@@ -212,7 +212,7 @@ void Simulation::broadcast(std::uint32_t sender) {
     if (sent == nullptr) return;
     const neat::Message& message = *sent;
     const std::uint64_t number = result_.counters.messages_sent++;
-    chronology_.sent(sender, number, *message.genome, message.stamp);
+    chronology_.sent(sender, number, message.genome, message.stamp);
     if (observer_ != nullptr) {
         observer_->message_sent(agent.robot(), message.stamp, last_mark(*message.genome));
     }

@@ -26,51 +26,52 @@ CausalPast::CausalPast(std::size_t robots, std::int64_t delay_cycles)
       known_(robots * robots),
       epochs_(robots),
       merged_(robots * robots),
-      snapshots_(delay_cycles > 0 ? robots : 0) {}
+      snapshots_(delay_cycles > 0 ? robots : 0) {
+    heard_.reserve(heard_most);
+}
 
 void CausalPast::created(std::uint32_t robot) {
-    ++known_[robot * robots_ + robot];
+    catch_up();
+    ++row(robot)[robot];
     ++epochs_[robot];
 }
 
 std::shared_ptr<const CausalPast::Vector> CausalPast::snapshot(std::uint32_t robot) {
     Snapshot& latest = snapshots_[robot];
     if (!latest.known || latest.epoch != epochs_[robot]) {
-        const auto row = known(robot);
-        latest = {epochs_[robot], std::make_shared<const Vector>(row.begin(), row.end())};
+        latest = {epochs_[robot], std::make_shared<const Vector>(row(robot), row(robot) + robots_)};
     }
     return latest.known;
 }
 
-void CausalPast::sent(std::uint32_t robot, std::uint64_t message, std::int64_t cycle) {
-    if (delay_cycles_ == 0) {
-        last_ = {robot, epochs_[robot]};
-        return;
-    }
+void CausalPast::hold(std::uint64_t message, std::int64_t cycle) {
     while (!in_flight_.empty() && in_flight_.front().cycle + delay_cycles_ < cycle) {
         in_flight_.pop_front();
         ++first_message_;
     }
     assert(message == first_message_ + in_flight_.size());
     static_cast<void>(message);
-    in_flight_.push_back({{robot, epochs_[robot]}, cycle, snapshot(robot)});
+    in_flight_.push_back({last_sender_, epochs_[last_sender_], cycle, snapshot(last_sender_)});
 }
 
-void CausalPast::admitted(std::uint32_t receiver, std::uint64_t message) {
-    if (delay_cycles_ == 0) {
-        admit(receiver, last_, known(last_.sender).data());
-        return;
-    }
+void CausalPast::admit_held(std::uint32_t receiver, std::uint64_t message) {
     const Flight& flight = in_flight_[static_cast<std::size_t>(message - first_message_)];
-    admit(receiver, flight.sending, flight.known->data());
+    admit(receiver, flight.sender, flight.epoch, flight.known->data());
 }
 
-void CausalPast::admit(std::uint32_t receiver, Sending sending, const std::int32_t* heard) {
+void CausalPast::catch_up() {
+    for (const auto [sender, receiver] : heard_)
+        admit(receiver, sender, epochs_[sender], row(sender));
+    heard_.clear();
+}
+
+void CausalPast::admit(std::uint32_t receiver, std::uint32_t sender, std::uint32_t epoch,
+                       const std::int32_t* known) {
     // Many messages say nothing new.
-    std::uint32_t& merged = merged_[receiver * robots_ + sending.sender];
-    if (merged >= sending.epoch) return;
-    merged = sending.epoch;
-    if (merge(known_.data() + receiver * robots_, heard, robots_)) ++epochs_[receiver];
+    std::uint32_t& merged = merged_[sender * robots_ + receiver];
+    if (merged >= epoch) return;
+    merged = epoch;
+    if (merge(row(receiver), known, robots_)) ++epochs_[receiver];
 }
 
 }  // namespace gene_clocks::sim

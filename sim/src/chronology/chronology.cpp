@@ -11,15 +11,16 @@ Chronology::Chronology(std::size_t robots, std::int64_t delay_cycles,
 
 /// The fields of docs/wire-format.md.
 Chronology::Sender Chronology::measure_frame(std::uint32_t robot,
-                                             const neat::Genome& active) const {
+                                             std::shared_ptr<const neat::Genome> active) const {
     constexpr std::size_t version = 1;
     constexpr std::size_t energy = 4;
     constexpr std::size_t checksum = 4;
-    const std::size_t payload = origins_.of(*active.topology).bytes +
-                                varint_bytes(static_cast<std::uint64_t>(active.id.robot)) +
-                                varint_bytes(active.id.birth);
-    return {active.id, version + varint_bytes(robot + std::uint64_t{1}) + energy +
-                           varint_bytes(payload) + payload + checksum};
+    const std::size_t payload = origins_.of(*active->topology).bytes +
+                                varint_bytes(static_cast<std::uint64_t>(active->id.robot)) +
+                                varint_bytes(active->id.birth);
+    const std::size_t frame = version + varint_bytes(robot + std::uint64_t{1}) + energy +
+                              varint_bytes(payload) + payload + checksum;
+    return {std::move(active), frame};
 }
 
 void Chronology::accepted(const neat::Genome& active, const neat::Genome& received) {

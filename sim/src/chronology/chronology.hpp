@@ -27,10 +27,11 @@ public:
     void begin_cycle(std::int64_t cycle) { cycle_ = cycle; }
 
     /// A robot broadcast its active genome. Messages are numbered from 0.
-    void sent(std::uint32_t robot, std::uint64_t message, const neat::Genome& active, Stamp stamp) {
+    void sent(std::uint32_t robot, std::uint64_t message,
+              const std::shared_ptr<const neat::Genome>& active, Stamp stamp) {
         past_.sent(robot, message, cycle_);
         Sender& sender = senders_[robot];
-        if (sender.genome != active.id) sender = measure_frame(robot, active);
+        if (sender.genome != active) sender = measure_frame(robot, active);
         const std::size_t stamp_bytes = stamp.value == 0 ? 0 : varint_bytes(stamp.value);
         measures_.stamp_bytes += stamp_bytes;
         measures_.bytes_sent += sender.frame_bytes + stamp_bytes;
@@ -54,10 +55,10 @@ public:
 
 private:
     struct Sender {
-        neat::GenomeId genome;      // that the bytes are of
-        std::size_t frame_bytes{};  // without the stamp
+        std::shared_ptr<const neat::Genome> genome;  // that was sent last
+        std::size_t frame_bytes{};                   // without the stamp
     };
-    Sender measure_frame(std::uint32_t robot, const neat::Genome& active) const;
+    Sender measure_frame(std::uint32_t robot, std::shared_ptr<const neat::Genome> active) const;
     void crossed(const neat::Birth& birth);
 
     std::int64_t cycle_ = 0;

@@ -1,7 +1,6 @@
 #include "gene_origins.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <limits>
 #include <numeric>
@@ -66,10 +65,6 @@ std::uint64_t count_common(std::vector<std::uint64_t>& first, std::vector<std::u
 }
 
 }  // namespace
-
-std::size_t varint_bytes(std::uint64_t value) {
-    return (static_cast<std::size_t>(std::bit_width(value | 1)) + 6) / 7;
-}
 
 GeneOrigins::GeneOrigins(std::shared_ptr<const neat::Topology> initial)
     : initial_genes_(initial->size()), record_(initial->size()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -84,6 +85,8 @@ private:
 };
 
 /// The bytes of the smallest encoding of a number as a varint (docs/wire-format.md).
-std::size_t varint_bytes(std::uint64_t value);
+constexpr std::size_t varint_bytes(std::uint64_t value) {
+    return (static_cast<std::size_t>(std::bit_width(value | 1)) + 6) / 7;
+}
 
 }  // namespace gene_clocks::sim

@@ -88,7 +88,7 @@ TEST_F(ChronologyTest, ComparesMarksWithCauseAndWithTime) {
     chronology_->begin_cycle(1);
     const auto first = join(0, start_, mark(10, 0), output_);
     chronology_->begin_cycle(2);
-    chronology_->sent(0, 0, *first, Stamp{});
+    chronology_->sent(0, 0, first, Stamp{});
     chronology_->admitted(1, 0);
     join(1, start_, mark(5, 1), output_);  // after the first by cause and time, before it by mark
     join(0, start_, mark(4, 0), output_);  // after its own first; concurrent with the second
@@ -126,9 +126,9 @@ TEST_F(ChronologyTest, EqualCountersAreComparedByRobot) {
 
 TEST_F(ChronologyTest, NewsTravelsThroughOthers) {
     const auto gene = join(0, start_, mark(10, 0), output_);
-    chronology_->sent(0, 0, *gene, Stamp{});
+    chronology_->sent(0, 0, gene, Stamp{});
     chronology_->admitted(1, 0);
-    chronology_->sent(1, 1, *genome(1, initial_), Stamp{});
+    chronology_->sent(1, 1, genome(1, initial_), Stamp{});
     chronology_->admitted(2, 1);
     join(2, start_, mark(11, 2), output_);  // heard of the first
     join(3, start_, mark(12, 3), output_);  // heard of nothing
@@ -137,18 +137,29 @@ TEST_F(ChronologyTest, NewsTravelsThroughOthers) {
 
 TEST_F(ChronologyTest, ADelayedMessageTellsWhatItsSenderKnewAtSending) {
     delay(2);
-    chronology_->sent(0, 0, *start_, Stamp{});
+    chronology_->sent(0, 0, start_, Stamp{});
     chronology_->begin_cycle(1);
     join(0, start_, mark(10, 0), output_);
     chronology_->begin_cycle(2);
     chronology_->admitted(1, 0);
     join(1, start_, mark(11, 1), output_);
     EXPECT_EQ(measures().caused_pairs, 0u);
-    chronology_->sent(0, 1, *start_, Stamp{});
+    chronology_->sent(0, 1, start_, Stamp{});
     chronology_->begin_cycle(4);
     chronology_->admitted(1, 1);
     join(1, start_, mark(12, 1), output_);
     EXPECT_EQ(measures().caused_pairs, 2u);
+}
+
+TEST(CausalPast, AMessageTellsNothingOfWhatItsSenderCreatesLater) {
+    CausalPast past(2, 0);
+    past.sent(0, 0, 0);
+    past.admitted(1, 0);
+    past.created(0);
+    EXPECT_EQ(past.known(1)[0], 0);
+    past.sent(0, 1, 0);
+    past.admitted(1, 1);
+    EXPECT_EQ(past.known(1)[0], 1);
 }
 
 TEST_F(ChronologyTest, CollisionsAreOfTheSameInnovationOrOfDifferentOnes) {
@@ -253,14 +264,14 @@ TEST_F(ChronologyTest, BytesAreThoseOfTheWireFormat) {
         birth.inherited = active->topology;
         chronology_->born(0, birth, *child);
         active = child;
-        chronology_->sent(0, message, *active, clock.stamp());
+        chronology_->sent(0, message, active, clock.stamp());
         bytes += codec.encode(RobotId{1}, {active, 50.0f, clock.stamp()})->size();
         stamps += clock.stamp().value < 128 ? 1u : 2u;
         ASSERT_EQ(measures().bytes_sent, bytes);
         ASSERT_EQ(measures().stamp_bytes, stamps);
     }
     EXPECT_GT(clock.stamp().value, 130u);  // both sizes came
-    chronology_->sent(0, 300, *active, Stamp{});
+    chronology_->sent(0, 300, active, Stamp{});
     EXPECT_EQ(measures().stamp_bytes, stamps);
 }
 
