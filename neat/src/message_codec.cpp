@@ -108,30 +108,40 @@ bool is_same_initial_gene(const gene_clocks_gene& a, const gene_clocks_gene& b) 
 }  // namespace
 
 std::size_t payload_bytes(const Genome& genome) {
+    const Topology& topology = *genome.topology;
+    const auto& neurons = topology.neurons;
+    const auto& connections = topology.connection_marks;
     // A writer without room counts what it is given.
     gene_clocks_writer bytes{};
     for (const std::uint64_t field :
          {static_cast<std::uint64_t>(genome.id.robot), std::uint64_t{genome.id.birth},
-          std::uint64_t{genome.topology->neurons.size()},
-          std::uint64_t{genome.topology->connection_marks.size()}}) {
+          std::uint64_t{neurons.size()}, std::uint64_t{connections.size()}}) {
         gene_clocks_put_varint(&bytes, field);
     }
-    gene_clocks_mark<std::uint64_t> last{};
-    std::vector<gene_clocks_gene> genes(genome.topology->size());
-    std::vector<std::uint16_t> places;
-    merge_genes(genome, 0, 0, genes.data(), places);
-    for (const gene_clocks_gene& gene : genes) {
+    InnovationNumber last{};
+    const auto add_mark = [&](InnovationNumber mark) {
         ++bytes.size;  // the head
-        const std::uint64_t leap = gene.mark.counter - last.counter;
+        const std::uint64_t leap = mark.counter - last.counter;
         if (leap >= gene_clocks_head_far)
             gene_clocks_put_varint(&bytes, leap - gene_clocks_head_far);
-        if (gene.mark.robot != last.robot) gene_clocks_put_varint(&bytes, gene.mark.robot);
-        last = gene.mark;
-        if (gene.kind != gene_clocks_connection) continue;
-        gene_clocks_put_varint(&bytes, gene.ends.source);
-        gene_clocks_put_varint(&bytes, gene.ends.target);
-        bytes.size += sizeof gene.weight;
+        if (mark.robot != last.robot)
+            gene_clocks_put_varint(&bytes, static_cast<std::uint32_t>(mark.robot));
+        last = mark;
+    };
+    std::size_t neuron = 0;
+    for (std::size_t i = 0; i < connections.size(); ++i) {
+        while (neuron < neurons.size() && !(connections[i] < neurons[neuron].mark)) {
+            add_mark(neurons[neuron++].mark);
+        }
+        add_mark(connections[i]);
+        const ConnectionEnds& ends = topology.connection_ends[i];
+        // In whole genomes: with other sources than clocks, a neuron may come after this gene.
+        for (const InnovationNumber end : {ends.source, ends.target}) {
+            gene_clocks_put_varint(&bytes, topology.find_neuron(end).value());
+        }
+        bytes.size += sizeof(float);  // the weight
     }
+    while (neuron < neurons.size()) add_mark(neurons[neuron++].mark);
     return bytes.size;
 }
 

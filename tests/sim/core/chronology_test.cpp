@@ -275,6 +275,16 @@ TEST_F(ChronologyTest, BytesAreThoseOfTheWireFormat) {
     EXPECT_EQ(measures().stamp_bytes, stamps);
 }
 
+TEST_F(ChronologyTest, BytesDoNotDependOnWhetherANeuronComesBeforeItsConnections) {
+    const auto in_order = split(0, start_, 0, 10, 0);
+    auto topology = std::make_shared<Topology>(*initial_);
+    const neat::ConnectionEnds ends = topology->connection_ends[0];
+    topology->insert(neat::NeuronGene{mark(12, 0), neat::NeuronKind::hidden});
+    topology->insert(mark(10, 0), {ends.source, mark(12, 0), false});
+    topology->insert(mark(11, 0), {mark(12, 0), ends.target, false});
+    EXPECT_EQ(neat::payload_bytes(*genome(0, topology)), neat::payload_bytes(*in_order));
+}
+
 /// Draws all events of a run as a graph, in which an edge is one robot's next event or a message.
 class EventGraph final : public RunObserver {
 public:
