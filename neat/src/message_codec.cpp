@@ -137,7 +137,10 @@ std::size_t payload_bytes(const Genome& genome) {
         const ConnectionEnds& ends = topology.connection_ends[i];
         // In whole genomes: with other sources than clocks, a neuron may come after this gene.
         for (const InnovationNumber end : {ends.source, ends.target}) {
-            gene_clocks_put_varint(&bytes, topology.find_neuron(end).value());
+            // Initial neurons usually have the mark index + 1.
+            const std::uint64_t guess = end.counter - 1;
+            const bool is_initial = guess < neurons.size() && neurons[guess].mark == end;
+            gene_clocks_put_varint(&bytes, is_initial ? guess : topology.find_neuron(end).value());
         }
         bytes.size += sizeof(float);  // the weight
     }

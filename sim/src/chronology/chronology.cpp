@@ -23,6 +23,16 @@ Chronology::Sender Chronology::measure_frame(std::uint32_t robot,
     return {std::move(active), frame};
 }
 
+void Chronology::sent(std::uint32_t robot, std::uint64_t message,
+                      const std::shared_ptr<const neat::Genome>& active, Stamp stamp) {
+    past_.sent(robot, message, cycle_);
+    Sender& sender = senders_[robot];
+    if (sender.genome != active) sender = measure_frame(robot, active);
+    const std::size_t stamp_bytes = stamp.value == 0 ? 0 : varint_bytes(stamp.value);
+    measures_.stamp_bytes += stamp_bytes;
+    measures_.bytes_sent += sender.frame_bytes + stamp_bytes;
+}
+
 void Chronology::accepted(const neat::Genome& active, const neat::Genome& received) {
     const Homology homology = origins_.align(*active.topology, *received.topology);
     ++measures_.alignments;

@@ -28,14 +28,8 @@ public:
 
     /// A robot broadcast its active genome. Messages are numbered from 0.
     void sent(std::uint32_t robot, std::uint64_t message,
-              const std::shared_ptr<const neat::Genome>& active, Stamp stamp) {
-        past_.sent(robot, message, cycle_);
-        Sender& sender = senders_[robot];
-        if (sender.genome != active) sender = measure_frame(robot, active);
-        const std::size_t stamp_bytes = stamp.value == 0 ? 0 : varint_bytes(stamp.value);
-        measures_.stamp_bytes += stamp_bytes;
-        measures_.bytes_sent += sender.frame_bytes + stamp_bytes;
-    }
+              const std::shared_ptr<const neat::Genome>& active, Stamp stamp);
+
     /// A robot's innovation source admitted a message, whatever became of its genome.
     void admitted(std::uint32_t receiver, std::uint64_t message) {
         past_.admitted(receiver, message);
