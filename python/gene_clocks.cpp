@@ -328,7 +328,7 @@ void define_wire_format(py::module_& module) {
         .def_readonly("stamp", &Message::stamp)
         .def_readonly("energy", &Message::energy)
         .def_readonly("robot", &Message::robot, "who made the genome")
-        .def_readonly("birth", &Message::birth, "how many genomes that robot had made before")
+        .def_readonly("birth", &Message::birth, "a number that the robot gives to no other genome")
         .def_readonly("genes", &Message::genes, "in the order of their marks");
     module.def("encode", &encode, "message"_a, "limits"_a = WireLimits{},
                "The frame of a message, as bytes; WireError where decode would refuse it.");
@@ -339,6 +339,10 @@ void define_wire_format(py::module_& module) {
 
 }  // namespace
 
+#ifdef GENE_CLOCKS_AUTHENTICATION
+void define_authentication(py::module_& module);  // authentication.cpp
+#endif
+
 PYBIND11_MODULE(gene_clocks, module) {
     module.doc() = "Decentralized innovation marking for distributed NEAT.";
     module.attr("__version__") = GENE_CLOCKS_VERSION;
@@ -346,4 +350,7 @@ PYBIND11_MODULE(gene_clocks, module) {
     define_alignment(module);
     define_genes(module);
     define_wire_format(module);
+#ifdef GENE_CLOCKS_AUTHENTICATION
+    define_authentication(module);
+#endif
 }

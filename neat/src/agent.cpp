@@ -8,7 +8,7 @@ namespace gene_clocks::neat {
 
 Agent::Agent(RobotId robot, const OdneatSettings& settings,
              std::shared_ptr<const Topology> topology, std::unique_ptr<InnovationSource> source,
-             RandomStream random, std::uint32_t first_birth)
+             RandomStream random)
     : energy_(static_cast<float>(settings.energy_initial)),
       energy_maximum_(static_cast<float>(settings.energy_maximum)),
       maturation_cycles_(settings.maturation_cycles),
@@ -18,7 +18,7 @@ Agent::Agent(RobotId robot, const OdneatSettings& settings,
                          std::vector<float>(topology->connection_marks.size())},
                   settings.activation_slope),
       robot_(robot),
-      births_(first_birth),
+      births_(source->first_birth()),
       settings_(settings),
       source_(std::move(source)),
       random_(random),

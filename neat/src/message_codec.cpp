@@ -105,6 +105,12 @@ bool is_same_initial_gene(const gene_clocks_gene& a, const gene_clocks_gene& b) 
     return a.ends.target == b.ends.target;
 }
 
+/// Limits under which the initial genes have all genesis marks.
+WireLimits limits_of_fleet(WireLimits limits, const Topology& initial) {
+    limits.genesis_count = initial.size();
+    return limits;
+}
+
 }  // namespace
 
 std::size_t payload_bytes(const Genome& genome) {
@@ -159,8 +165,8 @@ WireLimits wire_limits(const Topology& initial, const OdneatSettings& settings) 
 MessageCodec::MessageCodec(std::shared_ptr<const Topology> initial, const WireLimits& limits)
     : initial_(std::move(initial)),
       initial_genes_(initial_->size()),
-      limits_(limits),
-      kernel_limits_(limits.kernel_limits()),
+      limits_(limits_of_fleet(limits, *initial_)),
+      kernel_limits_(limits_.kernel_limits()),
       genes_(std::size_t{limits.neurons} + limits.connections),
       joined_(GENE_CLOCKS_JOINED_WORDS(limits.connections)) {
     const std::vector<float> any(initial_->connection_marks.size());
@@ -169,15 +175,12 @@ MessageCodec::MessageCodec(std::shared_ptr<const Topology> initial, const WireLi
 
 // ---- Reading ------------------------------------------------------------------------------------
 
-/// The first of so many genes in `genes_` that is no initial gene where one must be, or is one
-/// where none may be; `genes` where initial genes are missing.
+/// The first of so many genes in `genes_` that is no initial gene where one must be; `genes` where
+/// initial genes are missing. Behind them comes none, since their marks are all genesis marks.
 std::optional<std::size_t> MessageCodec::first_foreign_gene(std::size_t genes) const {
     const std::size_t initial = std::min(genes, initial_genes_.size());
     for (std::size_t i = 0; i < initial; ++i) {
         if (!is_same_initial_gene(genes_[i], initial_genes_[i])) return i;
-    }
-    for (std::size_t i = initial; i < genes; ++i) {
-        if (genes_[i].mark.robot == 0) return i;
     }
     return genes < initial_genes_.size() ? std::optional(genes) : std::nullopt;
 }
@@ -284,9 +287,7 @@ bool MessageCodec::take_genes(const Genome& genome) {
     }
     merge_genes(genome, initial_->neurons.size(), initial_->connection_marks.size(),
                 genes_.data() + initial_genes_.size(), places_);
-    return std::none_of(genes_.begin() + static_cast<std::ptrdiff_t>(initial_genes_.size()),
-                        genes_.begin() + static_cast<std::ptrdiff_t>(genome.topology->size()),
-                        [](const gene_clocks_gene& gene) { return gene.mark.robot == 0; });
+    return true;
 }
 
 WireResult<std::span<const std::uint8_t>> MessageCodec::encode(RobotId sender,

@@ -146,6 +146,18 @@ TEST_F(SealedFrames, AreTooOldBehindTheWindow) {
     EXPECT_EQ(outcome(opener_, sealed[2]), "opened");
 }
 
+TEST_F(SealedFrames, AreNewHoweverFarTheNumbersLeap) {
+    std::vector<Bytes> sealed;
+    for (int i = 0; i < 200; ++i) sealed.push_back(seal(sealer_, frame_of(RobotId{7})));
+    EXPECT_EQ(outcome(opener_, sealed[0]), "opened");
+    EXPECT_EQ(outcome(opener_, sealed[65]), "opened") << "a leap of more than the window";
+    EXPECT_EQ(outcome(opener_, sealed[64]), "opened");
+    EXPECT_EQ(outcome(opener_, sealed[128]), "opened") << "a leap of 63";
+    EXPECT_EQ(outcome(opener_, sealed[65]), "replayed");
+    EXPECT_EQ(outcome(opener_, sealed[66]), "opened");
+    EXPECT_EQ(outcome(opener_, sealed[64]), "too old");
+}
+
 TEST_F(SealedFrames, AreMalformedWhereTheKeysHolderErrs) {
     EXPECT_EQ(outcome(opener_, seal(sealer_, Bytes{1, 2, 3})), "malformed");
     EXPECT_EQ(outcome(opener_, seal(sealer_, {})), "malformed");

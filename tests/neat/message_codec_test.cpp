@@ -218,6 +218,77 @@ TEST_F(MessageCodecTest, ForeignInitialGenesAreRefused) {
     EXPECT_EQ(error_of_writing(message_of(twin)), WireError::genesis);
 }
 
+TEST_F(MessageCodecTest, EachFieldOfAnInitialGeneIsLookedAt) {
+    // Genomes that are fine in themselves, each with one initial gene that is another.
+    const WireLimits limits = wire_limits(*initial_, settings_);
+    const auto perceptron =
+        *test::decode_message(frame_of(message_of(samples::perceptron(3, 2, {sender, 0}))), limits);
+    const auto expect_foreign = [&](std::size_t index, auto change) {
+        test::WireMessage message = perceptron;
+        change(message.genes[index]);
+        const auto frame = test::encode_message(message, limits);
+        ASSERT_TRUE(frame) << name_of(frame.fault().error);
+        const WireFault fault = fault_without_allocation(codec_, *frame);
+        EXPECT_EQ(fault.error, WireError::genesis);
+        const bool has_robot = message.genes[index].mark.robot != 0;
+        const std::size_t connections_from_here =
+            message.genes.size() - std::max<std::size_t>(index, 5);
+        EXPECT_EQ(fault.offset, frame->size() - 4 - 7 * connections_from_here -
+                                    (index < 5 ? 5 - index : 0) - (has_robot ? 1 : 0));
+    };
+    expect_foreign(10, [](auto& gene) { gene.mark = {12, 7}; });
+    expect_foreign(7, [](auto& gene) { gene.is_recurrent = true; });
+    expect_foreign(8, [](auto& gene) { gene.ends.source = 3; });
+    expect_foreign(8, [](auto& gene) { gene.ends = {4, 3}; });
+    expect_foreign(5, [](auto& gene) { gene.ends.target = 3, gene.ends.source = 4; });
+    expect_foreign(10, [](auto& gene) { gene.ends.target = 3, gene.ends.source = 3; });
+    // Two inputs, the bias among them, and three outputs, joined as three and two would be.
+    test::WireMessage message = perceptron;
+    message.genes[1].kind = kernel::gene_clocks_bias;
+    message.genes[2].kind = kernel::gene_clocks_output;
+    const auto frame = test::encode_message(message, limits);
+    ASSERT_TRUE(frame) << name_of(frame.fault().error);
+    EXPECT_EQ(fault_without_allocation(codec_, *frame).error, WireError::genesis);
+}
+
+TEST_F(MessageCodecTest, NoGenomeWithoutTheInitialGenesIsWritten) {
+    const auto expect_foreign = [&](auto change) {
+        Genome genome = split();
+        auto topology = std::make_shared<Topology>(*genome.topology);
+        change(*topology);
+        genome.topology = topology;
+        EXPECT_EQ(error_of_writing(message_of(genome)), WireError::genesis);
+    };
+    expect_foreign([](Topology& topology) { ++topology.inputs; });
+    expect_foreign([](Topology& topology) { ++topology.outputs; });
+    expect_foreign([](Topology& topology) { ++topology.initial_connections; });
+    expect_foreign([](Topology& topology) { topology.neurons[4].kind = NeuronKind::hidden; });
+    expect_foreign([](Topology& topology) { topology.connection_marks[5] = mark(11, 3); });
+    expect_foreign([](Topology& topology) { topology.connection_ends[5].recurrent = true; });
+}
+
+TEST_F(MessageCodecTest, TheInitialGenesSayHowManyGenesisMarksThereAre) {
+    WireLimits limits = wire_limits(*initial_, settings_);
+    limits.genesis_count = 100;
+    MessageCodec codec{initial_, limits};
+    const Bytes frame = frame_of(message_of(split(), {15}));
+    EXPECT_TRUE(codec.decode(frame)) << "marks above 11 are robots', and so are stamps";
+    const auto written = codec.encode(sender, message_of(split(), {15}));
+    ASSERT_TRUE(written);
+    EXPECT_TRUE(std::equal(written->begin(), written->end(), frame.begin(), frame.end()));
+}
+
+TEST_F(MessageCodecTest, NeuronsOfTwoRobotsMayHaveOneCounter) {
+    Genome genome = split();
+    for (const std::uint32_t robot : {8u, 9u}) {
+        samples::add_hidden(genome, mark(20, robot));
+        samples::add_gene(genome, mark(20 + robot, robot), {mark(20, robot), genesis(4), false});
+    }
+    const auto received = codec_.decode(frame_of(message_of(genome)));
+    ASSERT_TRUE(received);
+    EXPECT_TRUE(samples::same_genes(*received->message.genome, genome));
+}
+
 TEST_F(MessageCodecTest, MissingInitialGenesAreRefused) {
     // All but the last initial gene, announced and sent.
     test::WireMessage message =

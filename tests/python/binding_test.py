@@ -8,6 +8,7 @@ import os
 import pathlib
 import pickle
 import random
+import resource
 import struct
 import unittest
 
@@ -16,6 +17,9 @@ from gene_clocks import Gene, GeneClock, GeneKind, GeneMatch, InnovationNumber, 
 
 DOCUMENT = json.loads(pathlib.Path(os.environ["GENE_CLOCKS_WIRE_VECTORS"]).read_text())
 MAXIMUM = 2**64 - 1
+# Where the build says nothing, whatever the module has is tested.
+AUTHENTICATES = os.environ.get("GENE_CLOCKS_AUTHENTICATION", str(hasattr(gene_clocks, "Sealer"))) in (
+    "1", "True")
 
 
 def float_of(bits):
@@ -191,6 +195,87 @@ class WireTest(unittest.TestCase):
     def test_a_wire_error_is_a_value_error(self):
         self.assertRaises(ValueError, gene_clocks.decode, b"")
         self.assertRaises(TypeError, gene_clocks.decode, "text")
+
+    def refused(self, data, limits=None):
+        with self.assertRaises(WireError) as raised:
+            gene_clocks.decode(data, limits or wire_limits())
+        return raised.exception.error, raised.exception.offset
+
+    def test_damaged_frames_are_refused(self):
+        for vector in DOCUMENT["vectors"]:
+            if "value" not in vector:
+                continue
+            frame = bytes.fromhex(vector["frame"])
+            for size in range(len(frame)):
+                self.assertEqual(self.refused(frame[:size])[0], "truncated")
+            for bit in range(8 * len(frame)):
+                flipped = bytearray(frame)
+                flipped[bit // 8] ^= 1 << bit % 8
+                self.refused(bytes(flipped))
+
+    def test_ten_megabytes_are_refused_without_memory(self):
+        self.assertEqual(self.refused(bytes(10_000_000)), ("too_long", 400))
+        # Counts of 65 535 neurons and connections, in a frame that has the bytes and no gene.
+        header = bytes.fromhex("0107640000000084ade2040700ffff03ffff03")
+        huge = header.ljust(11 + 10_000_004, b"\0") + bytes.fromhex("097c870e")
+        wide = gene_clocks.WireLimits(frame_bytes=2**32 - 1, genesis_count=5, neurons=65535,
+                                      connections=65535)
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        self.assertEqual(self.refused(huge, wide), ("not_ascending", 19))
+        grown_kib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+        # 16 bytes for each connection that the limits allow; not the genes that were announced.
+        self.assertLess(grown_kib, 2048)
+
+
+@unittest.skipUnless(AUTHENTICATES, "built without libsodium")
+class AuthenticationTest(unittest.TestCase):
+    KEY = bytes.fromhex(DOCUMENT["key"])
+
+    def outcome(self, opener, sealed):
+        try:
+            return opener.open(sealed)
+        except gene_clocks.SealError as error:
+            return error.refusal
+
+    def test_vectors(self):
+        for vector in DOCUMENT["sealed"]:
+            with self.subTest(vector["name"]):
+                opener = gene_clocks.Opener(self.KEY, wire_limits())
+                sealed = bytes.fromhex(vector["sealed"])
+                found = self.outcome(opener, sealed)
+                if "refusal" in vector:
+                    self.assertEqual(found, vector["refusal"])
+                    self.assertEqual(opener.counts()[found], 1)
+                    self.assertEqual(opener.windows(), {})
+                    continue
+                self.assertEqual(found, bytes.fromhex(vector["frame"]))
+                self.assertEqual(opener.windows(), {7: (vector["number"], 1)})
+                if vector["number"] < MAXIMUM:
+                    sealer = gene_clocks.Sealer(self.KEY, GeneClock(1, vector["number"] - 1))
+                    self.assertEqual(sealer.seal(found), sealed)
+
+    def test_each_frame_is_taken_once_also_after_a_restart(self):
+        frame = bytes.fromhex(DOCUMENT["vectors"][0]["frame"])
+        sealer = gene_clocks.Sealer(self.KEY, GeneClock(7, block=10))
+        opener = gene_clocks.Opener(self.KEY, wire_limits(), senders_max=1)
+        sealed = [sealer.seal(frame) for _ in range(70)]
+        self.assertGreaterEqual(sealer.durable_needed(), 71)
+        self.assertEqual(self.outcome(opener, sealed[69]), frame)
+        self.assertEqual(self.outcome(opener, sealed[69]), "replayed")
+        self.assertEqual(self.outcome(opener, sealed[0]), "too_old")
+        again = gene_clocks.Opener(self.KEY, wire_limits(), windows=opener.windows())
+        self.assertEqual(self.outcome(again, sealed[69]), "replayed")
+        self.assertEqual(self.outcome(again, sealed[68]), frame)
+        other = bytes.fromhex(next(vector["frame"] for vector in DOCUMENT["vectors"]
+                                   if vector.get("value", {}).get("sender", 7) != 7))
+        self.assertEqual(self.outcome(opener, sealer.seal(other)), "too_many_senders")
+
+    def test_numbers_end_and_keys_have_32_bytes(self):
+        sealer = gene_clocks.Sealer(self.KEY, GeneClock(7, maximum=2))
+        self.assertIsNotNone(sealer.seal(b""))
+        self.assertIsNone(sealer.seal(b""))
+        self.assertRaises(ValueError, gene_clocks.Sealer, self.KEY[1:], GeneClock(7))
+        self.assertRaises(ValueError, gene_clocks.Opener, self.KEY + b"1")
 
 
 if __name__ == "__main__":

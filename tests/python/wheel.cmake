@@ -12,7 +12,8 @@ endif()
 
 file(REMOVE_RECURSE "${WORK}")
 file(COPY "${SOURCE}/python" DESTINATION "${WORK}")
-file(COPY "${SOURCE}/protocol/include" DESTINATION "${WORK}/protocol")
+file(COPY "${SOURCE}/protocol/include" "${SOURCE}/protocol/authentication"
+    DESTINATION "${WORK}/protocol")
 execute_process(COMMAND_ERROR_IS_FATAL ANY WORKING_DIRECTORY "${WORK}/python" COMMAND
     "${python}" -c "from setuptools import build_meta; build_meta.build_wheel('${WORK}/wheels')")
 file(GLOB wheel "${WORK}/wheels/gene_clocks-*.whl")

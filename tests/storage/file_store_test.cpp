@@ -2,6 +2,7 @@
 #include "gene_clocks/storage/file_store.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -9,9 +10,34 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "gene_clocks/gene_clock.hpp"
 #include "temporary_folder.hpp"
+
+namespace {
+
+/// What the store has synchronised and renamed so far, while it is watched.
+std::vector<std::string>* watched = nullptr;
+
+}  // namespace
+
+// In the place of the C library's: whether a file was synchronised shows nowhere else but after a
+// loss of power.
+extern "C" int fsync(int descriptor) {
+    if (watched) {
+        const auto file =
+            std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(descriptor));
+        watched->push_back("sync " + (std::filesystem::is_directory(file)
+                                          ? std::string{"folder"}
+                                          : file.filename().string()));
+    }
+    return static_cast<int>(::syscall(SYS_fsync, descriptor));
+}
+extern "C" int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
+    if (watched) watched->push_back(std::string{from} + " to " + to);
+    return static_cast<int>(::syscall(SYS_renameat2, from_folder, from, to_folder, to, 0));
+}
 
 namespace gene_clocks::storage {
 namespace {
@@ -59,6 +85,29 @@ TEST_F(FileStoreTest, ReadsBackWhatItStored) {
     EXPECT_EQ(contents(copy(1)), contents(copy(2)));
     EXPECT_EQ(contents(copy(1)).size(), counter_record_size);
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "counter.new"));
+}
+
+TEST_F(FileStoreTest, SynchronisesAFileBeforeItsNameAndTheFolderAfterIt) {
+    const auto during = [](auto call) {
+        std::vector<std::string> events;
+        watched = &events;
+        EXPECT_TRUE(call());
+        watched = nullptr;
+        return events;
+    };
+    const std::vector<std::string> both{
+        "sync counter.new", "counter.new to counter.1", "sync folder",
+        "sync counter.new", "counter.new to counter.2", "sync folder"};
+    {
+        auto first = store();
+        ASSERT_TRUE(first.create(23));
+        EXPECT_EQ(during([&] { return first.store(40); }), both);
+    }
+    // What an earlier process renamed may not be durable yet.
+    auto expected = both;
+    expected.insert(expected.begin(), "sync folder");
+    auto again = store();
+    EXPECT_EQ(during([&] { return again.open(); }), expected);
 }
 
 TEST_F(FileStoreTest, IsWrittenOnlyAfterItWasOpened) {

@@ -56,8 +56,8 @@ struct gene_clocks_gene {
     float weight;
 };
 
-/* Identity of a genome (the robot that made it, and how many it had made before), and how many
- * genes follow. */
+/* Identity of a genome (the robot that made it, and a number that this robot gives to no other),
+ * and how many genes follow. */
 struct gene_clocks_genome {
     uint32_t robot;
     uint32_t birth;

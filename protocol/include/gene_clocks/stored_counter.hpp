@@ -22,7 +22,7 @@ enum class StorageError : std::uint8_t {
     unknown_version,  ///< it was stored by another version of this format
     in_use,           ///< another process has it open
     not_open,         ///< to be written before it was opened or created
-    bad_counter,      ///< zero is nobody's counter
+    bad_counter,      ///< no clock has it: zero, or beyond the maximum
     device,           ///< the file system or the flash memory reports an error
 };
 

@@ -55,12 +55,11 @@ struct Birth {
 /// message that arrives, `control()`, `spend()`, and `replace()` where `is_depleted()`.
 class Agent {
 public:
-    /// `settings` must outlive the agent; `topology` is the one all robots start from. A robot that
-    /// was restarted gives a `first_birth` beyond all of its earlier lives, since others may still
-    /// hold its old genomes and know them by their GenomeId.
+    /// `settings` must outlive the agent; `topology` is the one all robots start from. Others may
+    /// hold genomes of the robot's earlier lives and know them by their GenomeId: births go on from
+    /// `source->first_birth()`.
     Agent(RobotId robot, const OdneatSettings& settings, std::shared_ptr<const Topology> topology,
-          std::unique_ptr<InnovationSource> source, RandomStream random,
-          std::uint32_t first_birth = 0);
+          std::unique_ptr<InnovationSource> source, RandomStream random);
 
     /// Probability of a broadcast in this cycle: the fitness share of the active genome's species.
     double broadcast_probability() {
@@ -77,7 +76,7 @@ public:
     /// The message that a broadcast sends now; nullptr while it must be held, which changes nothing
     /// but leaves the broadcast undone. Valid until the next call.
     const Message* broadcast() {
-        const auto stamp = source_->stamp_to_send();
+        const auto stamp = source_->stamp_to_send(message_.genome->id.birth);
         if (!stamp) return nullptr;
         message_.energy = energy_;
         message_.stamp = *stamp;

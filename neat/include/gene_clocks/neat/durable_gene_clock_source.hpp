@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <ranges>
 #include <utility>
@@ -14,6 +16,9 @@ namespace gene_clocks::neat {
 ///
 /// A broadcast is held until what it needs is in `storage`; with `limits.block` that takes a write
 /// once in many genes. Every message passes an admission gate, genes and all.
+///
+/// The robot's genomes are numbered by the same stored counter, from where it stood at the start,
+/// so that no number is sent in two lives (modulo 2³², since a GenomeId has no more).
 template <CounterStorage Storage>
 class DurableGeneClockSource final : public InnovationSource {
 public:
@@ -26,7 +31,7 @@ public:
         const auto clock = GeneClock::restart(robot, storage.stored(), limits);
         if (!clock) return nullptr;
         return std::unique_ptr<DurableGeneClockSource>(
-            new DurableGeneClockSource(*clock, storage, admission));
+            new DurableGeneClockSource(*clock, storage, limits, admission));
     }
 
     std::optional<SplitMarks> mark_split(const Genome&, std::size_t, double) override {
@@ -42,11 +47,13 @@ public:
 
     /// Writes to storage where that is due. nullopt where it fails; storage_status() says why, and
     /// the next call tries again.
-    std::optional<Stamp> stamp_to_send() override {
-        status_ = storage_.store(clock_.durable_needed());
+    std::optional<Stamp> stamp_to_send(std::uint32_t birth) override {
+        status_ = reserve_birth(birth) ? storage_.store(std::max(clock_.durable_needed(), births_))
+                                       : StorageStatus{StorageError::bad_counter};
         if (!status_) return std::nullopt;
         return clock_.stamp();
     }
+    std::uint32_t first_birth() const override { return static_cast<std::uint32_t>(first_birth_); }
 
     /// A stamp without genes.
     bool observe(Stamp stamp) override {
@@ -70,13 +77,25 @@ public:
     StorageStatus storage_status() const { return status_; }
 
 private:
-    DurableGeneClockSource(const GeneClock& clock, Storage& storage,
+    DurableGeneClockSource(const GeneClock& clock, Storage& storage, GeneClock::Limits limits,
                            AdmissionGate::Policy admission)
-        : clock_(clock), gate_(admission), storage_(storage) {}
+        : clock_(clock), gate_(admission), storage_(storage), limits_(limits) {}
+
+    /// Moves `births_` beyond a birth, a block at a time; false beyond the largest counter.
+    bool reserve_birth(std::uint32_t birth) {
+        const std::uint64_t count = std::uint64_t{birth - first_birth()} + 1;  // of this life
+        if (count > limits_.maximum - first_birth_) return false;
+        const std::uint64_t next = first_birth_ + count;
+        if (next > births_) births_ = next + std::min(limits_.block, limits_.maximum - next);
+        return true;
+    }
 
     GeneClock clock_;
     AdmissionGate gate_;
     Storage& storage_;
+    GeneClock::Limits limits_;
+    const std::uint64_t first_birth_ = storage_.stored();
+    std::uint64_t births_ = first_birth_;  // to be stored; above all births that were to be sent
     StorageStatus status_;
 };
 

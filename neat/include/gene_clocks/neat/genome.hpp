@@ -63,7 +63,8 @@ std::uint64_t genesis_mark_count(std::size_t inputs, std::size_t outputs);
 /// marks 1…n, over neurons, then connections. Preconditions: inputs ≥ 1, outputs ≥ 1.
 std::shared_ptr<const Topology> make_initial_topology(std::size_t inputs, std::size_t outputs);
 
-/// Identity of a genome: the robot that made it, and how many it had made before.
+/// Identity of a genome: the robot that made it, and a number that this robot gives to no other
+/// (how many it had made before; after a crash, more).
 struct GenomeId {
     RobotId robot{};
     std::uint32_t birth{};

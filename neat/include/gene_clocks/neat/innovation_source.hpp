@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "gene_clocks/gene_clock.hpp"
@@ -42,9 +43,16 @@ public:
     /// What a message carries beside the genome; zero for a source that sends nothing.
     virtual Stamp stamp() const = 0;
 
-    /// The stamp of a message that is to leave now; nullopt while it must be held, since what it
-    /// says is not yet on stable storage.
-    virtual std::optional<Stamp> stamp_to_send() { return stamp(); }
+    /// The stamp of a message that is to leave now, with the robot's genome number `birth`; nullopt
+    /// while it must be held, since what it says is not yet on stable storage.
+    virtual std::optional<Stamp> stamp_to_send(std::uint32_t birth) {
+        static_cast<void>(birth);
+        return stamp();
+    }
+
+    /// The number of the robot's first genome in this life (GenomeId::birth): beyond all that it
+    /// sent in earlier ones, where the source remembers those.
+    virtual std::uint32_t first_birth() const { return 0; }
 
     /// Reception of a message's stamp. False: the message must be dropped whole.
     virtual bool observe(Stamp stamp) = 0;

@@ -36,9 +36,9 @@ std::size_t payload_bytes(const Genome& genome);
 /// other innovation sources send it, is refused. Not thread-safe: one owner.
 class MessageCodec {
 public:
-    /// `initial` is the topology that all robots start from; its marks are the genesis marks
-    /// 1…limits.genesis_count. Keeps 32 bytes of memory for each gene that the limits allow, and
-    /// 16 more for each connection.
+    /// `initial` is the topology that all robots start from; its marks are the genesis marks, from
+    /// 1 on without a gap, and its size counts for limits.genesis_count. Keeps 32 bytes of memory
+    /// for each gene that the limits allow, and 16 more for each connection.
     MessageCodec(std::shared_ptr<const Topology> initial, const WireLimits& limits);
 
     /// The frame that carries `message`; valid until the next call. Refused is what `decode` would
