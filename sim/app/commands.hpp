@@ -15,6 +15,7 @@ enum ExitStatus : int {
 // Each adds one subcommand, whose callback does the work, sets `status` to an ExitStatus, and may
 // throw experiment::InputError for bad input.
 void add_run_command(CLI::App& app, int& status);
+void add_replay_command(CLI::App& app, int& status);
 void add_study_command(CLI::App& app, int& status);
 void add_report_command(CLI::App& app, int& status);
 void add_reproduce_command(CLI::App& app, int& status);

@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
         "  gene-clocks reproduce --quick                 the paper's experiments, in small\n"
         "  gene-clocks COMMAND --help                    what a command can do\n");
     app::add_run_command(application, status);
+    app::add_replay_command(application, status);
     app::add_study_command(application, status);
     app::add_report_command(application, status);
     app::add_reproduce_command(application, status);

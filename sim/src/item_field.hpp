@@ -16,6 +16,9 @@ public:
     bool is_present(std::size_t item) const { return present_[item] != 0; }
     float x_px(std::size_t item) const { return x_px_[item]; }
     float y_px(std::size_t item) const { return y_px_[item]; }
+    std::span<const float> x_px() const { return x_px_; }
+    std::span<const float> y_px() const { return y_px_; }
+    std::span<const std::uint8_t> is_present() const { return present_; }
 
     void put(std::size_t item, float x_px, float y_px);
     void take(std::size_t item, std::int64_t absence_cycles);

@@ -8,6 +8,7 @@
 
 #include "chronology/chronology.hpp"
 #include "gene_clocks/neat/agent.hpp"
+#include "gene_clocks/sim/swarm_view.hpp"
 #include "observed_source.hpp"
 #include "radio.hpp"
 #include "random_streams.hpp"
@@ -70,6 +71,7 @@ public:
 
 private:
     void log_sample(std::int64_t cycle);
+    void show_swarm(std::int64_t cycle) const;
     void pick_up_items();
     void shuffle_order();
     void exchange_messages();
@@ -149,6 +151,7 @@ void Simulation::run_cycle(std::int64_t cycle) {
     chronology_.begin_cycle(cycle);
     world_.replace_items(placement_random_);
     if (cycle % settings_.run.sample_period_cycles == 0) log_sample(cycle);
+    if (observer_ != nullptr) show_swarm(cycle);
     pick_up_items();
     shuffle_order();
     exchange_messages();
@@ -179,6 +182,12 @@ void Simulation::log_sample(std::int64_t cycle) {
         *mean /= robots;
     }
     result_.samples.push_back(sample);
+}
+
+void Simulation::show_swarm(std::int64_t cycle) const {
+    const ItemField& items = world_.items();
+    observer_->between_cycles({cycle, agents_, world_.x_px(), world_.y_px(), world_.heading_x(),
+                               world_.heading_y(), items.x_px(), items.y_px(), items.is_present()});
 }
 
 void Simulation::pick_up_items() {
@@ -292,6 +301,7 @@ void Simulation::replace_depleted(std::int64_t cycle) {
 }
 
 RunResult Simulation::take_result() {
+    if (observer_ != nullptr) show_swarm(settings_.run.cycles);
     hash_.add(world_.x_px());
     hash_.add(world_.y_px());
     result_.trajectory_hash = hash_.digest();

@@ -6,6 +6,8 @@
 
 namespace gene_clocks::sim {
 
+struct SwarmView;
+
 /// Told of everything that marking sees in a run, in the order in which it happens; to write a
 /// trace, say. A run without an observer pays nothing for it.
 class RunObserver {
@@ -21,6 +23,9 @@ public:
 
     /// A robot's innovation source admitted a message; `stamp` is what the robot would send next.
     virtual void message_admitted(RobotId robot, std::uint64_t message, Stamp stamp) = 0;
+
+    /// The swarm before every cycle, once items have reappeared, and after the last one.
+    virtual void between_cycles(const SwarmView&) {}
 };
 
 }  // namespace gene_clocks::sim
