@@ -38,8 +38,9 @@ function rgb(colour) {
 /** Fits a canvas' pixels to its size on the screen; returns its context, scaled to CSS pixels. */
 function fitCanvas(canvas) {
   const ratio = window.devicePixelRatio || 1;
-  const width = Math.round(canvas.clientWidth * ratio);
-  const height = Math.round(canvas.clientHeight * ratio);
+  // At least one: a canvas of none cannot be drawn from, and windows can be that narrow for a while.
+  const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
+  const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
   if (canvas.width !== width) canvas.width = width;
   if (canvas.height !== height) canvas.height = height;
   const context = canvas.getContext('2d');

@@ -59,9 +59,8 @@ class Player {
     byId('title').textContent = `${task} with ${MARKINGS[data.source] ?? data.source}`;
     document.title = `${byId('title').textContent}: a run to watch – Gene Clocks`;
     const genes = data.genealogy.length;
-    byId('lead').textContent = `${robots} robots over ${grouped(cycles)} cycles. They evolve on board and send `
-      + `each other their genomes; every gene bears a mark ⟨counter, robot⟩. Of `
-      + `${grouped(this.recording.genesUntil(Infinity))} genes that were created on the way, ${genes} are in the final swarm.`;
+    byId('lead').textContent = `${robots} robots over ${grouped(cycles)} cycles. Every gene bears a mark ⟨counter, robot⟩; `
+      + `of ${grouped(this.recording.genesUntil(Infinity))} that were created, ${genes} are in the final swarm.`;
     byId('genealogy-text').textContent = genes === 0
       ? 'No robot of the final swarm carries any gene beyond the initial ones.'
       : 'Every node is a birth that added genes; time goes from left to right. A thick line leads on from what came just '
@@ -407,7 +406,7 @@ class Player {
     } else if (this.colour === 'lineage') {
       const robots = (isOne) => sets.filter((set) => isOne(recording.lineageOf[set])).length;
       recording.lineages.slice(0, LINEAGE_COLOURS).forEach((gene, i) => {
-        entries.push([palette.lineages[i], `from ${recording.mark(gene)}: ${robots((lineage) => lineage === i)}`, gene]);
+        entries.push([palette.lineages[i], `${recording.mark(gene)}: ${robots((lineage) => lineage === i)}`, gene]);
       });
       entries.push([palette.other, `other lineages: ${robots((lineage) => lineage >= LINEAGE_COLOURS)}`],
         ['hollow', `no new gene: ${robots((lineage) => lineage < 0)}`]);
