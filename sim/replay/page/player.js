@@ -150,7 +150,7 @@ class Player {
     clear.addEventListener('click', () => this.choose(null));
     this.carrierCount = make('b');
     byId('chosen').replaceChildren(
-      make('p', {}, make('b', { class: 'mark' }, recording.mark(gene)), ' ', describeOrigin(recording, gene)),
+      make('p', {}, make('b', { class: 'mark' }, recording.mark(gene)), ': ', describeOrigin(recording, gene)),
       make('p', { class: 'buttons' }, make('span', {}, 'Now in ', this.carrierCount), watch, clear));
   }
 
