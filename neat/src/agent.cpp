@@ -24,8 +24,20 @@ Agent::Agent(RobotId robot, const OdneatSettings& settings,
       random_(random),
       population_(settings),
       tabu_(settings) {
+    activate_initial_genome(std::move(topology));
+}
+
+void Agent::activate_initial_genome(std::shared_ptr<const Topology> topology) {
     activate(std::make_shared<const Genome>(make_initial_genome(
-        {robot_, births_++}, std::move(topology), settings.weight_limit, random_)));
+        {robot_, births_++}, std::move(topology), settings_.weight_limit, random_)));
+}
+
+void Agent::reboot(std::shared_ptr<const Topology> topology,
+                   std::unique_ptr<InnovationSource> source) {
+    population_ = Population(settings_);
+    tabu_ = TabuList(settings_);
+    if (source) source_ = std::move(source);
+    activate_initial_genome(std::move(topology));
 }
 
 /// Makes a genome the active one; its initial energy is its first fitness sample.

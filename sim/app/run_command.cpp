@@ -71,6 +71,7 @@ nlohmann::ordered_json to_json(const RunOptions& options, const FinishedTask& ru
         {"messages_received", counters.messages_received},
         {"genomes_accepted", counters.genomes_accepted},
         {"collisions", counters.collisions},
+        {"reboots", counters.reboots},
         {"chronology", to_json(result.chronology)},
         {"trajectory_hash", fmt::format("{:016x}", result.trajectory_hash)},
         {"robot_steps", result.robot_steps},

@@ -37,6 +37,8 @@ template <>
 inline constexpr std::array<std::string_view, 2> choice_names<neat::HeldReports> = {"all",
                                                                                     "acceptable"};
 template <>
+inline constexpr std::array<std::string_view, 2> choice_names<sim::RebootClock> = {"kept", "lost"};
+template <>
 inline constexpr std::array<std::string_view, 2> choice_names<neat::CrossoverKind> = {"uniform",
                                                                                       "one-point"};
 template <>

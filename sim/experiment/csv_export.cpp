@@ -42,9 +42,10 @@ void write_run(const StoredStudy& study, const StoredArm& arm, const RunRecord& 
                summary.measures.f_a, summary.final_swarm_fitness,
                at_10000 ? fmt::format("{}", *at_10000) : "", summary.species,
                summary.added_elements, summary.controller_size);
-    fmt::print(out, "{},{},{},{},{},{},{},{},", counters.births, counters.matings,
+    fmt::print(out, "{},{},{},{},{},{},{},{},{},", counters.births, counters.matings,
                counters.mutations, counters.genes_created, counters.messages_sent,
-               counters.messages_received, counters.genomes_accepted, counters.collisions);
+               counters.messages_received, counters.genomes_accepted, counters.collisions,
+               counters.reboots);
     sim::for_each_measure(run.result.chronology,
                           [&](const char*, const auto& value) { fmt::print(out, "{},", value); });
     fmt::print(out, "{:016x},{},{},{},{},{},{}\n", run.result.trajectory_hash,
@@ -59,7 +60,7 @@ void write_runs_csv(const Store& store, const std::vector<StoredStudy>& studies,
     fmt::print(out,
                "{},f_c,f_b,t_f,f_a,final_swarm_fitness,swarm_fitness_at_10000,species,"
                "added_elements,controller_size,births,matings,mutations,genes_created,"
-               "messages_sent,messages_received,genomes_accepted,collisions,",
+               "messages_sent,messages_received,genomes_accepted,collisions,reboots,",
                identity_header);
     sim::for_each_measure(sim::ChronologyMeasures{},
                           [&](const char* name, const auto&) { fmt::print(out, "{},", name); });

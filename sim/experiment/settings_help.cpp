@@ -56,6 +56,8 @@ std::string_view table_title(std::string_view table) {
     if (table == "radio") return "Messages";
     if (table == "energy") return "What a robot's energy depends on";
     if (table == "timestamp") return "Clocks of the source timestamp";
+    if (table == "reboot") return "Robots that lose their memory";
+    if (table == "join") return "Robots that are switched on late";
     if (table == "run") return "Length and samples of a run";
     if (table == "measures") return "The paper's four measures";
     return "";

@@ -15,8 +15,10 @@ namespace {
 
 using neat::OdneatSettings;
 using sim::EnergySettings;
+using sim::JoinSettings;
 using sim::MeasureSettings;
 using sim::RadioSettings;
+using sim::RebootSettings;
 using sim::RunSettings;
 using sim::Settings;
 using sim::TimestampSettings;
@@ -154,6 +156,9 @@ std::vector<Setting> world_rows() {
     return {
         world<&S::arena>("world.arena", unused, "", "4.1, Figure 1",
                          "a built-in arena's name, or a file ending in .toml"),
+        world<&S::arena_scale>(
+            "world.arena_scale", {0.0, 100.0, true}, "", "",
+            "factor of all lengths of the arena; its square is that of the area"),
         world<&S::robots>("world.robots", {1, 100000}, "robots", "4.1, Table 1",
                           "robots in the arena"),
         world<&S::items>("world.items", {0, 100000}, "items", "4.1, Table 1",
@@ -211,6 +216,23 @@ std::vector<Setting> physics_rows() {
     };
 }
 
+std::vector<Setting> lifetime_rows() {
+    return {
+        row<&Settings::reboot, &RebootSettings::probability>(
+            "reboot.probability", probability, "per cycle", "",
+            "probability that a robot reboots: it loses its population, tabu list and genome"),
+        row<&Settings::reboot, &RebootSettings::clock>(
+            "reboot.clock", unused, "", "",
+            "whether what marks its genes goes on after a reboot, or starts anew"),
+        row<&Settings::join, &JoinSettings::late_share>(
+            "join.late_share", probability, "", "",
+            "share of the robots that are switched on late; at least one is there at the start"),
+        row<&Settings::join, &JoinSettings::cycles>(
+            "join.cycles", cycles, "cycles", "",
+            "a late robot is switched on at a cycle drawn from 1 to this"),
+    };
+}
+
 std::vector<Setting> run_rows() {
     return {
         row<&Settings::run, &RunSettings::cycles>("run.cycles", cycles, "cycles", "4.1",
@@ -254,7 +276,8 @@ std::string_view Setting::name() const {
 const std::vector<Setting>& settings_table() {
     static const std::vector<Setting> table = [] {
         std::vector<Setting> rows;
-        for (auto part : {task_rows, odneat_rows, world_rows, physics_rows, run_rows}) {
+        for (auto part :
+             {task_rows, odneat_rows, world_rows, physics_rows, lifetime_rows, run_rows}) {
             std::ranges::move(part(), std::back_inserter(rows));
         }
         return rows;

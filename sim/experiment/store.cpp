@@ -133,7 +133,8 @@ sim::RunCounters read_counters(SQLite::Statement& row) {
             .messages_sent = unsigned_column(row, "messages_sent"),
             .messages_received = unsigned_column(row, "messages_received"),
             .genomes_accepted = unsigned_column(row, "genomes_accepted"),
-            .collisions = unsigned_column(row, "collisions")};
+            .collisions = unsigned_column(row, "collisions"),
+            .reboots = unsigned_column(row, "reboots")};
 }
 
 std::vector<StoredArm> read_arms(SQLite::Database& database, const std::string& study) {
@@ -217,18 +218,19 @@ void Store::put_run(const RunRecord& record) {
     SQLite::Transaction transaction(*database_);
     const sim::RunResult& result = record.result;
     const sim::RunCounters& counters = result.counters;
-    execute(*database_,
-            "INSERT INTO run (settings_hash, seed, births, matings, mutations, genes_created, "
-            "messages_sent, messages_received, genomes_accepted, collisions, trajectory_hash, "
-            "robot_steps, cpu_seconds, wall_seconds, finished_at, program_version) "
-            "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-            record.settings_hash, as_integer(record.seed), as_integer(counters.births),
-            as_integer(counters.matings), as_integer(counters.mutations),
-            as_integer(counters.genes_created), as_integer(counters.messages_sent),
-            as_integer(counters.messages_received), as_integer(counters.genomes_accepted),
-            as_integer(counters.collisions), hexadecimal(result.trajectory_hash),
-            as_integer(result.robot_steps), result.cpu_seconds, record.wall_seconds,
-            record.finished_at, record.program_version);
+    execute(
+        *database_,
+        "INSERT INTO run (settings_hash, seed, births, matings, mutations, genes_created, "
+        "messages_sent, messages_received, genomes_accepted, collisions, reboots, "
+        "trajectory_hash, robot_steps, cpu_seconds, wall_seconds, finished_at, program_version) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        record.settings_hash, as_integer(record.seed), as_integer(counters.births),
+        as_integer(counters.matings), as_integer(counters.mutations),
+        as_integer(counters.genes_created), as_integer(counters.messages_sent),
+        as_integer(counters.messages_received), as_integer(counters.genomes_accepted),
+        as_integer(counters.collisions), as_integer(counters.reboots),
+        hexadecimal(result.trajectory_hash), as_integer(result.robot_steps), result.cpu_seconds,
+        record.wall_seconds, record.finished_at, record.program_version);
     const std::int64_t run = database_->getLastInsertRowid();
     insert_samples(*database_, run, result.samples);
     insert_chronology(*database_, run, result.chronology);

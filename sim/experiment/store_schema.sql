@@ -39,6 +39,7 @@ CREATE TABLE run (
     messages_received INTEGER NOT NULL,
     genomes_accepted INTEGER NOT NULL,
     collisions INTEGER NOT NULL,
+    reboots INTEGER NOT NULL,
     trajectory_hash TEXT NOT NULL,
     robot_steps INTEGER NOT NULL,
     cpu_seconds REAL NOT NULL,

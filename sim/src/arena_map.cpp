@@ -8,8 +8,10 @@
 namespace gene_clocks::sim {
 namespace {
 
-// The frame's walls reach this far out, so that nothing sees or slips past them.
-constexpr double outside_px = 1e4;
+/// The frame's walls reach this far out, so that nothing sees or slips past them.
+double outside_px(const Arena& arena) {
+    return std::max({1e4, 2 * arena.width_px, 2 * arena.height_px});
+}
 
 // One cell more than the extent needs, for places on its very edge.
 std::size_t cell_count(float extent_px, float cell_px) {
@@ -49,14 +51,15 @@ ArenaMap::ArenaMap(const Arena& arena, double reach_px, double radius_px)
       orientations_(1, WallOrientation{1.0f, 1.0f}) {
     for (const ThickSegment& wall : arena.walls) add_wall(wall);
     // The frame, as four walls that reach from its inner edge far outside.
-    const double left = arena.frame_left_px - outside_px / 2;
-    const double right = arena.width_px - arena.frame_right_px + outside_px / 2;
-    const double top = arena.frame_top_px - outside_px / 2;
-    const double bottom = arena.height_px - arena.frame_bottom_px + outside_px / 2;
-    add_wall({left, -outside_px, left, outside_px, outside_px});
-    add_wall({right, -outside_px, right, outside_px, outside_px});
-    add_wall({-outside_px, top, outside_px, top, outside_px});
-    add_wall({-outside_px, bottom, outside_px, bottom, outside_px});
+    const double outside = outside_px(arena);
+    const double left = arena.frame_left_px - outside / 2;
+    const double right = arena.width_px - arena.frame_right_px + outside / 2;
+    const double top = arena.frame_top_px - outside / 2;
+    const double bottom = arena.height_px - arena.frame_bottom_px + outside / 2;
+    add_wall({left, -outside, left, outside, outside});
+    add_wall({right, -outside, right, outside, outside});
+    add_wall({-outside, top, outside, top, outside});
+    add_wall({-outside, bottom, outside, bottom, outside});
     list_visible_walls(static_cast<float>(reach_px));
     mark_touchable_cells();
 }

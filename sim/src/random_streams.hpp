@@ -13,8 +13,10 @@ enum class Stream : std::uint64_t {
     order = 2,
     radio = 3,
     clocks = 4,
+    reboots = 5,
+    joining = 6,
     robots = 1000,
-    identifiers = std::uint64_t{1} << 40,      // one for each robot
+    identifiers = std::uint64_t{1} << 40,      // one for each robot, and each of its lives
     synchronisation = std::uint64_t{2} << 40,  // one for each robot
 };
 

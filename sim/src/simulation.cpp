@@ -1,6 +1,7 @@
 #include "gene_clocks/sim/simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <memory>
 #include <numeric>
@@ -15,6 +16,7 @@
 #include "source_factory.hpp"
 #include "task.hpp"
 #include "trajectory_hash.hpp"
+#include "volatile_source.hpp"
 #include "world.hpp"
 
 namespace gene_clocks::sim {
@@ -37,6 +39,27 @@ struct InputLayout {
 constexpr std::size_t output_count = 2;
 constexpr std::size_t input_stride = 20;  // floats between two robots' inputs; at least 18
 
+std::int64_t late_robots(const Settings& settings) {
+    return std::llround(settings.join.late_share * static_cast<double>(settings.world.robots));
+}
+
+/// By robot, the cycle in which it is switched on: 0 for those that are there at the start. Empty
+/// where all are.
+std::vector<std::int64_t> draw_join_cycles(const Settings& settings, std::uint64_t seed) {
+    const std::int64_t late = late_robots(settings);
+    if (late == 0) return {};
+    neat::RandomStream random = make_stream(seed, Stream::joining);
+    std::vector<std::int64_t> cycles(static_cast<std::size_t>(settings.world.robots), 0);
+    for (std::int64_t i = 0; i < late; ++i) {
+        std::size_t robot = 0;
+        do {
+            robot = random.below(static_cast<std::uint32_t>(cycles.size()));
+        } while (cycles[robot] != 0);
+        cycles[robot] = 1 + random.below(static_cast<std::uint32_t>(settings.join.cycles));
+    }
+    return cycles;
+}
+
 void check(const Settings& settings, const Arena& arena) {
     const auto require = [](bool condition, const char* what) {
         if (!condition) throw std::invalid_argument(what);
@@ -47,11 +70,15 @@ void check(const Settings& settings, const Arena& arena) {
     require(settings.odneat.population >= 1, "odneat.population must be at least 1");
     require(settings.radio.range_px <= settings.world.sensor_range_px,
             "radio.range_px must not exceed world.sensor_range_px: the rays find the receivers");
+    require(late_robots(settings) < settings.world.robots,
+            "join.late_share must leave a robot that is there at the start");
     // Then a robot that would leave the arena meets the frame before it is outside of the map.
     const double thinnest = std::min(
         {arena.frame_left_px, arena.frame_top_px, arena.frame_right_px, arena.frame_bottom_px});
-    require(settings.world.translation_px < thinnest + settings.world.robot_radius_px,
-            "world.translation_px must be less than the frame's thickness and the robot's radius");
+    require(
+        settings.world.translation_px < thinnest + settings.world.robot_radius_px,
+        "world.translation_px must be less than the frame's thickness (times world.arena_scale) "
+        "and the robot's radius");
 }
 
 InnovationNumber last_mark(const neat::Genome& genome) {
@@ -70,6 +97,11 @@ public:
     RunResult take_result();
 
 private:
+    bool is_on(std::size_t robot) const {
+        return join_cycles_.empty() || join_cycles_[robot] <= cycle_;
+    }
+    std::unique_ptr<neat::InnovationSource> make_source(RobotId robot, std::uint64_t life) const;
+    void reboot_robots();
     void log_sample(std::int64_t cycle);
     void show_swarm(std::int64_t cycle) const;
     void pick_up_items();
@@ -87,17 +119,22 @@ private:
     neat::RandomStream placement_random_;
     neat::RandomStream order_random_;
     neat::RandomStream radio_random_;
+    neat::RandomStream reboot_random_;
     World world_;
     Radio radio_;
     RunResult result_;
     RunObserver* observer_;  // null: nobody watches
     Chronology chronology_;
+    const SourceFactory sources_;                  // refers to settings_
+    const std::vector<std::int64_t> join_cycles_;  // by robot; empty: all are there at the start
+    std::int64_t cycle_ = 0;
     std::vector<neat::Agent> agents_;      // refer to settings_
     std::vector<std::uint32_t> order_;     // of broadcasts and moves, shuffled anew each cycle
     std::vector<std::uint32_t> depleted_;  // whose active genome is to be replaced in this cycle
 
     // One entry for each robot.
-    std::vector<float> inputs_;  // input_stride for each
+    std::vector<std::uint64_t> lives_;  // innovation sources that it has lost
+    std::vector<float> inputs_;         // input_stride for each
     std::vector<float> output_0_, output_1_;
     std::vector<float> translation_, rotation_;
     std::vector<float> nearest_obstacle_;
@@ -114,6 +151,7 @@ Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64
       placement_random_(make_stream(seed, Stream::placement)),
       order_random_(make_stream(seed, Stream::order)),
       radio_random_(make_stream(seed, Stream::radio)),
+      reboot_random_(make_stream(seed, Stream::reboots)),
       world_(settings_,
              std::make_shared<ArenaMap>(
                  arena, settings.world.sensor_range_px + settings.world.robot_radius_px,
@@ -121,19 +159,17 @@ Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64
              placement_random_),
       radio_(settings.radio),
       observer_(observer),
-      chronology_(world_.robots(), settings.radio.delay_cycles, initial_) {
+      chronology_(world_.robots(), settings.radio.delay_cycles, initial_),
+      sources_(settings_, genesis_count(settings_), seed),
+      join_cycles_(draw_join_cycles(settings_, seed)) {
     const std::size_t robots = world_.robots();
-    SourceFactory sources(settings_, genesis_count(settings_), seed);
     agents_.reserve(robots);
     for (std::size_t i = 0; i < robots; ++i) {
         const RobotId robot{static_cast<std::uint32_t>(i + 1)};
-        auto source = sources.make(robot);
-        if (observer_ != nullptr) {
-            source = std::make_unique<ObservedSource>(std::move(source), robot, *observer_);
-        }
-        agents_.emplace_back(robot, settings_.odneat, initial_, std::move(source),
+        agents_.emplace_back(robot, settings_.odneat, initial_, make_source(robot, 0),
                              make_stream(seed, Stream::robots, i));
     }
+    lives_.assign(robots, 0);
     order_.resize(robots);
     std::iota(order_.begin(), order_.end(), 0u);
     for (auto* values :
@@ -147,8 +183,22 @@ Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64
     }
 }
 
+std::unique_ptr<neat::InnovationSource> Simulation::make_source(RobotId robot,
+                                                                std::uint64_t life) const {
+    auto source = sources_.make(robot, life);
+    if (settings_.reboot.probability > 0.0 && settings_.reboot.clock == RebootClock::lost) {
+        source = std::make_unique<VolatileSource>(std::move(source));
+    }
+    if (observer_ != nullptr) {
+        source = std::make_unique<ObservedSource>(std::move(source), robot, *observer_);
+    }
+    return source;
+}
+
 void Simulation::run_cycle(std::int64_t cycle) {
+    cycle_ = cycle;
     chronology_.begin_cycle(cycle);
+    reboot_robots();
     world_.replace_items(placement_random_);
     if (cycle % settings_.run.sample_period_cycles == 0) log_sample(cycle);
     if (observer_ != nullptr) show_swarm(cycle);
@@ -163,20 +213,34 @@ void Simulation::run_cycle(std::int64_t cycle) {
     result_.robot_steps += agents_.size();
 }
 
+void Simulation::reboot_robots() {
+    if (!(settings_.reboot.probability > 0.0)) return;
+    for (std::size_t i = 0; i < agents_.size(); ++i) {
+        if (!reboot_random_.chance(settings_.reboot.probability) || !is_on(i)) continue;
+        neat::Agent& agent = agents_[i];
+        const bool is_lost = settings_.reboot.clock == RebootClock::lost;
+        agent.reboot(initial_, is_lost ? make_source(agent.robot(), ++lives_[i]) : nullptr);
+        ++result_.counters.reboots;
+    }
+}
+
 void Simulation::log_sample(std::int64_t cycle) {
     Sample sample;
     sample.cycle = cycle;
-    for (const neat::Agent& agent : agents_) {
+    double robots = 0.0;
+    for (std::size_t i = 0; i < agents_.size(); ++i) {
+        const neat::Agent& agent = agents_[i];
+        hash_.add(agent.fitness());
+        if (!is_on(i)) continue;
+        robots += 1.0;
         const neat::Topology& topology = *agent.active().topology;
         sample.swarm_fitness += agent.fitness();
         sample.species += static_cast<double>(agent.population().species_count());
         sample.controller_size += static_cast<double>(topology.size());
         sample.added_elements += static_cast<double>(topology.size() - topology.initial_size());
-        hash_.add(agent.fitness());
     }
     hash_.add(world_.x_px());
     hash_.add(world_.y_px());
-    const auto robots = static_cast<double>(agents_.size());
     for (double* mean : {&sample.swarm_fitness, &sample.species, &sample.controller_size,
                          &sample.added_elements}) {
         *mean /= robots;
@@ -193,7 +257,8 @@ void Simulation::show_swarm(std::int64_t cycle) const {
 void Simulation::pick_up_items() {
     if (settings_.task != Task::collection) return;
     for (std::size_t i = 0; i < agents_.size(); ++i) {
-        if (world_.pick_up(i)) agents_[i].gain(static_cast<float>(settings_.energy.item_gain));
+        if (is_on(i) && world_.pick_up(i))
+            agents_[i].gain(static_cast<float>(settings_.energy.item_gain));
     }
 }
 
@@ -210,7 +275,7 @@ void Simulation::exchange_messages() {
                                       std::uint64_t which) { receive(receiver, sent, which); });
     }
     for (const std::uint32_t sender : order_) {
-        if (world_.senses(sender).hears_robot) broadcast(sender);
+        if (world_.senses(sender).hears_robot && is_on(sender)) broadcast(sender);
     }
 }
 
@@ -238,6 +303,7 @@ void Simulation::broadcast(std::uint32_t sender) {
 
 void Simulation::receive(std::uint32_t receiver, const neat::Message& message,
                          std::uint64_t number) {
+    if (!is_on(receiver)) return;
     ++result_.counters.messages_received;
     neat::Agent& agent = agents_[receiver];
     const neat::Reception reception = agent.receive(message);
@@ -257,6 +323,10 @@ void Simulation::receive(std::uint32_t receiver, const neat::Message& message,
 void Simulation::run_controllers() {
     const float per_energy = 1.0f / static_cast<float>(settings_.odneat.energy_maximum);
     for (std::size_t i = 0; i < agents_.size(); ++i) {
+        if (!is_on(i)) {
+            output_0_[i] = output_1_[i] = 0.5f;  // stands still
+            continue;
+        }
         const Senses& senses = world_.senses(i);
         float* const inputs = inputs_.data() + i * input_stride;
         std::copy(senses.obstacle.begin(), senses.obstacle.end(), inputs);
@@ -283,6 +353,7 @@ void Simulation::spend_energy() {
     }
     depleted_.clear();
     for (std::size_t i = 0; i < agents_.size(); ++i) {
+        if (!is_on(i)) continue;
         agents_[i].spend(energy_change_[i]);
         if (agents_[i].is_depleted()) depleted_.push_back(static_cast<std::uint32_t>(i));
     }
@@ -313,8 +384,9 @@ RunResult Simulation::take_result() {
     return std::move(result_);
 }
 
-std::optional<RunResult> run(const Settings& settings, const Arena& arena, std::uint64_t seed,
+std::optional<RunResult> run(const Settings& settings, const Arena& unscaled, std::uint64_t seed,
                              RunControl* control, RunObserver* observer) {
+    const Arena arena = scaled(unscaled, settings.world.arena_scale);
     check(settings, arena);
     const double start = thread_cpu_seconds();
     Simulation simulation(settings, arena, seed, observer);

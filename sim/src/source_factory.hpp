@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "gene_clocks/neat/global_counter_source.hpp"
 #include "gene_clocks/neat/innovation_source.hpp"
@@ -17,16 +18,19 @@ public:
     /// `settings` must outlive the factory. Genes 1…genesis_count are the initial ones.
     SourceFactory(const Settings& settings, std::uint64_t genesis_count, std::uint64_t seed);
 
-    /// To be called for robots 1, 2, … in turn, since each draws its clock's faults.
-    std::unique_ptr<neat::InnovationSource> make(RobotId robot);
+    /// The source of a robot, 1 to `world.robots`, in its initial state. What a robot has lost in
+    /// `life` reboots it has not: counters start over; its physical clock keeps its faults, as a
+    /// clock with a battery does; and identifiers are drawn anew, since no robot draws twice the
+    /// same.
+    std::unique_ptr<neat::InnovationSource> make(RobotId robot, std::uint64_t life = 0) const;
 
 private:
-    neat::LocalTime draw_local_time(RobotId robot);
+    std::vector<neat::LocalTime> draw_local_times() const;
 
     const Settings& settings_;
     std::uint64_t genesis_count_;
     std::uint64_t seed_;
-    neat::RandomStream clock_random_;
+    std::vector<neat::LocalTime> local_times_;        // by robot, from 1
     std::shared_ptr<neat::InnovationRecord> record_;  // global counter only
 };
 

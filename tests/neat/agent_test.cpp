@@ -577,6 +577,36 @@ TEST_F(AgentTest, AnExhaustedClockMeansNoStructuralMutation) {
     EXPECT_EQ(agent.message().stamp, Stamp{largest - 2});
 }
 
+TEST_F(AgentTest, ARebootLosesAllButTheClockAndTheIds) {
+    settings_.p_mutate = settings_.p_node = 1.0;
+    settings_.p_weight = 0.0;
+    Agent agent = make_agent();
+    agent.receive(message(0, 9.0f, 50.0f, 100));
+    agent.replace(0.0);
+    const GenomeId before = agent.active().id;
+    const Stamp stamp = agent.source().stamp();
+    ASSERT_GT(stamp, Stamp{100});
+    ASSERT_EQ(agent.population().members().size(), 3u);
+    ASSERT_EQ(agent.tabu_list().size(), 1u);
+    agent.gain(-70.0f);
+
+    agent.reboot(topology_);
+    EXPECT_EQ(agent.active().topology, topology_);
+    EXPECT_EQ(ids(agent), std::vector<GenomeId>{agent.active().id});
+    EXPECT_EQ(agent.tabu_list().size(), 0u);
+    EXPECT_EQ(agent.energy(), 100.0f);
+    EXPECT_EQ(agent.fitness(), 100.0f);
+    EXPECT_EQ(agent.broadcast_probability(), 1.0);
+    EXPECT_EQ(agent.source().stamp(), stamp);
+    EXPECT_GT(agent.active().id, before);
+    EXPECT_EQ(agent.message().genome->id, agent.active().id);
+
+    const GenomeId between = agent.active().id;
+    agent.reboot(topology_, std::make_unique<GeneClockSource>(RobotId{1}, genesis_marks));
+    EXPECT_EQ(agent.source().stamp(), Stamp{genesis_marks + 1});
+    EXPECT_GT(agent.active().id, between);
+}
+
 TEST_F(AgentTest, CanBeMoved) {
     Agent agent = make_agent();
     const GenomeId id = agent.active().id;

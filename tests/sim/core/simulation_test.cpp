@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -22,6 +24,26 @@ protected:
 
     Settings settings_;
     Arena arena_ = naive::arena();
+};
+
+/// Notes which robot sent or took messages first, and when which genes were marked.
+class FirstContacts final : public RunObserver {
+public:
+    void gene_marked(RobotId robot, InnovationNumber mark, double now_cycles) override {
+        repeated += marks.insert(mark).second ? 0 : 1;
+        const auto index = static_cast<std::size_t>(robot);
+        if (!marked_at.contains(index)) marked_at[index] = now_cycles;
+    }
+    void message_sent(RobotId robot, Stamp, InnovationNumber) override { heard_or_sent(robot); }
+    void message_admitted(RobotId robot, std::uint64_t, Stamp) override { heard_or_sent(robot); }
+
+    std::set<InnovationNumber> marks;
+    int repeated = 0;  // marks of two genes
+    std::map<std::size_t, double> marked_at;
+    std::set<std::size_t> active;
+
+private:
+    void heard_or_sent(RobotId robot) { active.insert(static_cast<std::size_t>(robot)); }
 };
 
 class Counter final : public RunObserver {
@@ -114,6 +136,8 @@ TEST_F(SimulationTest, RefusesSettingsThatContradictEachOther) {
     refused([](Settings& s) { s.run.sample_period_cycles = 0; });
     refused([](Settings& s) { s.odneat.population = 0; });
     refused([](Settings& s) { s.radio.range_px = s.world.sensor_range_px + 1; });
+    refused([](Settings& s) { s.join.late_share = 1.0; });
+    refused([](Settings& s) { s.world.arena_scale = 0.01, s.world.robot_radius_px = 1.0; });
 }
 
 TEST_F(SimulationTest, EverySourceWorksInEveryTask) {
@@ -124,6 +148,109 @@ TEST_F(SimulationTest, EverySourceWorksInEveryTask) {
             settings_.source = static_cast<Source>(source);
             EXPECT_EQ(run().robot_steps, 12'000u);
         }
+    }
+}
+
+TEST_F(SimulationTest, RobotsRebootWithTheirProbability) {
+    const auto without = run();
+    EXPECT_EQ(without.counters.reboots, 0u);
+    settings_.reboot.clock = RebootClock::lost;  // of no consequence without reboots
+    EXPECT_EQ(run().trajectory_hash, without.trajectory_hash);
+    settings_.reboot.probability = 0.01;
+    const auto rebooted = run();
+    const double expected = 0.01 * 12 * 3000;
+    EXPECT_NEAR(static_cast<double>(rebooted.counters.reboots), expected, 5 * std::sqrt(expected));
+    EXPECT_LT(rebooted.samples.back().added_elements, without.samples.back().added_elements);
+    settings_.reboot.probability = 1.0;
+    EXPECT_EQ(run().counters.reboots, 12u * 3000u);
+    EXPECT_EQ(run().counters.births, 0u);
+}
+
+TEST_F(SimulationTest, OnlyALostClockMarksTwoGenesAlike) {
+    settings_.odneat.p_mutate = 0.9;
+    settings_.reboot.probability = 0.002;
+    for (const auto source :
+         {Source::gene_clock, Source::gene_clock_no_merge, Source::congruence_class}) {
+        settings_.source = source;
+        for (const auto clock : {RebootClock::kept, RebootClock::lost}) {
+            settings_.reboot.clock = clock;
+            FirstContacts contacts;
+            const auto result = simulate_observed(settings_, arena_, 1, contacts).value();
+            EXPECT_GT(result.counters.reboots, 10u);
+            EXPECT_EQ(contacts.repeated > 0, clock == RebootClock::lost)
+                << static_cast<int>(source);
+        }
+    }
+}
+
+TEST_F(SimulationTest, EverySourceOutlivesRebootsInADebugBuildsAssertions) {
+    settings_.run.cycles = 2000;
+    settings_.odneat.p_mutate = settings_.odneat.p_mate = 0.9;
+    settings_.reboot = {.probability = 0.005, .clock = RebootClock::lost};
+    for (int source = 0; source <= static_cast<int>(Source::hybrid_logical_clock); ++source) {
+        settings_.source = static_cast<Source>(source);
+        EXPECT_GT(run().counters.genes_created, 10u);
+    }
+}
+
+TEST_F(SimulationTest, LateRobotsDoNothingUntilTheyAreSwitchedOn) {
+    settings_.join = {.late_share = 0.5, .cycles = 1'000'000'000};  // 6 of 12: never, in this run
+    FirstContacts contacts;
+    const auto result = simulate_observed(settings_, arena_, 1, contacts).value();
+    EXPECT_EQ(contacts.active.size(), 6u);
+    for (const auto& [robot, cycle] : contacts.marked_at) {
+        EXPECT_TRUE(contacts.active.contains(robot));
+    }
+    // Their fitness would stay 100; those that are on start there too, and then differ from it.
+    EXPECT_EQ(result.samples.front().swarm_fitness, 100.0);
+    settings_.join.cycles = 1;  // all on from cycle 1: no draw of anybody's differs after that
+    FirstContacts all;
+    EXPECT_TRUE(simulate_observed(settings_, arena_, 1, all));
+    EXPECT_EQ(all.active.size(), 12u);
+}
+
+TEST_F(SimulationTest, LateRobotsJoinInTheirCyclesAndCountInTheMeansFromThen) {
+    settings_.join = {.late_share = 0.75, .cycles = 2000};
+    settings_.odneat.p_mutate = settings_.odneat.p_node = 1.0;
+    settings_.world.robots = 40;
+    settings_.world.robot_radius_px = 1.0;
+    FirstContacts contacts;
+    const auto result = simulate_observed(settings_, arena_, 1, contacts).value();
+    // Marks come from robots that are on: at first from a quarter, in the end from nearly all.
+    int early = 0;
+    for (const auto& [robot, cycle] : contacts.marked_at) early += cycle < 300.0 ? 1 : 0;
+    EXPECT_LE(early, 10 + 10);
+    EXPECT_GT(contacts.active.size(), 35u);
+    EXPECT_EQ(result.samples.size(), 30u);
+    EXPECT_EQ(result.trajectory_hash, run().trajectory_hash);
+}
+
+TEST_F(SimulationTest, TheMeansAreThoseOfTheRobotsThatAreOn) {
+    // Nobody gains: who is on has no energy left before long, who is off keeps its 100.
+    settings_.task = Task::collection;
+    settings_.world.items = 0;
+    settings_.energy.decay = 10.0;
+    settings_.odneat.maturation_cycles = 1'000'000;
+    settings_.join = {.late_share = 0.5, .cycles = 1'000'000'000};
+    const auto result = run();
+    EXPECT_LT(result.samples.back().swarm_fitness, 3.0);
+}
+
+TEST_F(SimulationTest, AScaledArenaIsAnArenaOfThatSize) {
+    for (const double factor : {0.8, 3.16}) {
+        Arena large = arena_;
+        for (double* length : {&large.width_px, &large.height_px, &large.frame_left_px,
+                               &large.frame_right_px, &large.frame_top_px, &large.frame_bottom_px})
+            *length *= factor;
+        for (ThickSegment& wall : large.walls) {
+            wall = {wall.x1_px * factor, wall.y1_px * factor, wall.x2_px * factor,
+                    wall.y2_px * factor, wall.thickness_px * factor};
+        }
+        settings_.world.arena_scale = 1.0;
+        const auto expected = simulate(settings_, large, 1).value().trajectory_hash;
+        EXPECT_NE(expected, run().trajectory_hash);
+        settings_.world.arena_scale = factor;
+        EXPECT_EQ(run().trajectory_hash, expected);
     }
 }
 

@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <vector>
+
+#include "volatile_source.hpp"
 
 namespace gene_clocks::sim {
 namespace {
@@ -131,6 +135,45 @@ TEST_F(SourceFactoryTest, HybridClocksReadTheSamePhysicalClocks) {
     const auto hybrid = factory(Source::hybrid_logical_clock).make(RobotId{1});
     EXPECT_NEAR(static_cast<double>(first_counter(*hybrid, 10.0)) / 0x1p26 - 0x1p31,
                 static_cast<double>(first_counter(*timestamp, 10.0)) / 0x1p20 - 0x1p31, 0.01);
+}
+
+TEST_F(SourceFactoryTest, AfterARebootCountersStartOverAndPhysicalClocksDoNot) {
+    settings_.timestamp.offset_cycles = 1000.0;
+    for (const auto source : {Source::gene_clock, Source::gene_clock_no_merge,
+                              Source::congruence_class, Source::timestamp}) {
+        const SourceFactory made = factory(source);
+        for (const std::uint32_t robot : {1u, 7u, 10u}) {
+            EXPECT_EQ(first_counter(*made.make(RobotId{robot}, 1), 5.0),
+                      first_counter(*made.make(RobotId{robot}, 0), 5.0));
+        }
+    }
+    const SourceFactory made = factory(Source::random_identifier);
+    const auto drawn = [&](std::uint64_t life) {
+        return made.make(RobotId{1}, life)->mark_split(genome_, 0, 0.0)->neuron;
+    };
+    EXPECT_NE(drawn(0), drawn(1));
+    EXPECT_NE(drawn(1), drawn(2));
+}
+
+TEST_F(SourceFactoryTest, AVolatileSourcePassesOverMarksThatTheGenomeHas) {
+    const RobotId robot{3};
+    auto topology = std::make_shared<neat::Topology>(*genome_.topology);
+    topology->insert({{genesis_marks + 2, robot}, neat::NeuronKind::hidden});
+    topology->insert({genesis_marks + 5, robot},
+                     {{1, genesis_robot}, {genesis_marks + 2, robot}, false});
+    const neat::Genome genome{{}, topology, {}, {}};
+    const auto lost = [&] {
+        return VolatileSource(factory(Source::gene_clock_no_merge).make(robot, 1));
+    };
+    VolatileSource joins = lost();
+    std::vector<std::uint64_t> counters;
+    for (int i = 0; i < 4; ++i) {
+        counters.push_back(joins.mark_connection(genome, {}, 0.0)->counter - genesis_marks);
+    }
+    EXPECT_EQ(counters, (std::vector<std::uint64_t>{1, 3, 4, 6}));
+    // 1, 2, 3 and 4, 5, 6 would each repeat one.
+    VolatileSource splits = lost();
+    EXPECT_EQ(splits.mark_split(genome, 0, 0.0)->neuron.counter, genesis_marks + 7);
 }
 
 }  // namespace

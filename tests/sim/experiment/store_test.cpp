@@ -86,8 +86,9 @@ TEST_F(StoreTest, KeepsStudiesAndRuns) {
     EXPECT_EQ(run.result.robot_steps, expected.result.robot_steps);
     EXPECT_EQ(run.result.cpu_seconds, expected.result.cpu_seconds);
     const auto counters = [](const sim::RunCounters& c) {
-        return std::array{c.births,        c.matings,           c.mutations,        c.genes_created,
-                          c.messages_sent, c.messages_received, c.genomes_accepted, c.collisions};
+        return std::array{c.births,           c.matings,       c.mutations,
+                          c.genes_created,    c.messages_sent, c.messages_received,
+                          c.genomes_accepted, c.collisions,    c.reboots};
     };
     EXPECT_EQ(counters(run.result.counters), counters(expected.result.counters));
     const auto chronology = [](const sim::RunResult& result) {

@@ -111,6 +111,12 @@ public:
     /// Replaces the active genome by an offspring of the population.
     Birth replace(double now_cycles);
 
+    /// Loses what is in memory (population, tabu list, active genome) and starts anew with a random
+    /// initial genome of `topology`. Its innovation source goes on, unless another is given. Its
+    /// genomes' ids go on, too, since others may still hold the old ones.
+    void reboot(std::shared_ptr<const Topology> topology,
+                std::unique_ptr<InnovationSource> source = nullptr);
+
     RandomStream& random() { return random_; }
     RobotId robot() const { return robot_; }
     float energy() const { return energy_; }
@@ -121,6 +127,7 @@ public:
     const InnovationSource& source() const { return *source_; }
 
 private:
+    void activate_initial_genome(std::shared_ptr<const Topology> topology);
     void activate(std::shared_ptr<const Genome> genome);
     void sample_fitness();
     void refresh_share();

@@ -19,4 +19,7 @@ struct Arena {
     std::vector<ThickSegment> walls;
 };
 
+/// The same arena with all lengths times `factor`, which is positive.
+Arena scaled(Arena arena, double factor);
+
 }  // namespace gene_clocks::sim

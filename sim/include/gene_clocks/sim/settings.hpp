@@ -34,8 +34,15 @@ enum class NavigationEnergy : std::uint8_t {
     equation_2,  ///< the paper's Equation 2
 };
 
+/// What becomes of a robot's innovation source when it reboots.
+enum class RebootClock : std::uint8_t {
+    kept,  ///< goes on: its counter is on stable storage
+    lost,  ///< starts anew: its counter was in memory, and marks may be used twice
+};
+
 struct WorldSettings {
     std::string arena = "gecco15";  ///< a built-in arena's name or the path of a TOML file
+    double arena_scale = 1.0;       ///< factor of all its lengths, frame and walls included
     std::int64_t robots = 100;
     std::int64_t items = 75;        ///< collection only
     double robot_radius_px = 2.5;   ///< half the diagonal of the robot's diamond
@@ -74,6 +81,19 @@ struct TimestampSettings {
     friend bool operator==(const TimestampSettings&, const TimestampSettings&) = default;
 };
 
+/// Robots that reboot lose what is in memory: population, tabu list and active genome.
+struct RebootSettings {
+    double probability = 0.0;  ///< of each robot in each cycle
+    RebootClock clock = RebootClock::kept;
+};
+
+/// Robots that are switched on late. Until then one stands where it is, as an obstacle to others,
+/// with its initial genome and energy; it neither sends nor receives.
+struct JoinSettings {
+    double late_share = 0.0;  ///< of the robots, rounded; less than all
+    std::int64_t cycles = 1;  ///< each is switched on at a uniform draw from 1 to this
+};
+
 struct RunSettings {
     std::int64_t cycles = 40000;
     std::int64_t sample_period_cycles = 100;  ///< a sample of F_s, species and size this often
@@ -97,6 +117,8 @@ struct Settings {
     RadioSettings radio;
     EnergySettings energy;
     TimestampSettings timestamp;
+    RebootSettings reboot;
+    JoinSettings join;
     RunSettings run;
     MeasureSettings measures;
 };

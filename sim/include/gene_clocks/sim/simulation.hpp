@@ -15,7 +15,8 @@ namespace gene_clocks::sim {
 
 class RunObserver;
 
-/// What the paper measures every 100 cycles (section 4.1); means over all robots.
+/// What the paper measures every 100 cycles (section 4.1); means over all robots that are switched
+/// on (see JoinSettings).
 struct Sample {
     std::int64_t cycle{};
     double swarm_fitness{};  ///< F_s
@@ -35,6 +36,7 @@ struct RunCounters {
     std::uint64_t messages_received{};
     std::uint64_t genomes_accepted{};
     std::uint64_t collisions{};
+    std::uint64_t reboots{};
 };
 
 /// When a gene was created, for studies of chronology.

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "gene_clocks/neat/innovation_source.hpp"
+
+namespace gene_clocks::sim {
+
+/// An innovation source whose counter a reboot sets back, so that it may mark a gene as it once
+/// marked another. The robot sees, and passes over, marks that the genome at hand has already; that
+/// others hold them it cannot see.
+class VolatileSource final : public neat::InnovationSource {
+public:
+    explicit VolatileSource(std::unique_ptr<neat::InnovationSource> source)
+        : source_(std::move(source)) {}
+
+    std::optional<neat::SplitMarks> mark_split(const neat::Genome& genome, std::size_t connection,
+                                               double now_cycles) override {
+        for (;;) {
+            const auto marks = source_->mark_split(genome, connection, now_cycles);
+            if (!marks || !(has(genome, marks->neuron) || has(genome, marks->incoming) ||
+                            has(genome, marks->outgoing))) {
+                return marks;
+            }
+        }
+    }
+    std::optional<InnovationNumber> mark_connection(const neat::Genome& genome,
+                                                    const neat::ConnectionEnds& ends,
+                                                    double now_cycles) override {
+        for (;;) {
+            const auto mark = source_->mark_connection(genome, ends, now_cycles);
+            if (!mark || !has(genome, *mark)) return mark;
+        }
+    }
+    Stamp stamp() const override { return source_->stamp(); }
+    std::optional<Stamp> stamp_to_send() override { return source_->stamp_to_send(); }
+    bool observe(Stamp stamp) override { return source_->observe(stamp); }
+    Admission admit(Stamp stamp, const neat::Genome& genome) override {
+        return source_->admit(stamp, genome);
+    }
+
+private:
+    static bool has(const neat::Genome& genome, InnovationNumber mark) {
+        const auto& connections = genome.topology->connection_marks;
+        return genome.topology->find_neuron(mark) ||
+               std::binary_search(connections.begin(), connections.end(), mark);
+    }
+
+    std::unique_ptr<neat::InnovationSource> source_;
+};
+
+}  // namespace gene_clocks::sim
