@@ -35,7 +35,10 @@ public:
         }
     }
     Stamp stamp() const override { return source_->stamp(); }
-    std::optional<Stamp> stamp_to_send() override { return source_->stamp_to_send(); }
+    std::optional<Stamp> stamp_to_send(std::uint32_t birth) override {
+        return source_->stamp_to_send(birth);
+    }
+    std::uint32_t first_birth() const override { return source_->first_birth(); }
     bool observe(Stamp stamp) override { return source_->observe(stamp); }
     Admission admit(Stamp stamp, const neat::Genome& genome) override {
         return source_->admit(stamp, genome);
