@@ -1,0 +1,271 @@
+#!/usr/bin/env python3
+"""Writes the tables of ../results.md from the files in data/, so that no number is copied by hand.
+
+    tables.py           writes every table in its place, between <!-- table NAME --> and <!-- end -->
+    tables.py --check   only looks whether the page says what the data say; fails where it does not
+    tables.py --record STUDY COMMIT
+                        enters a study's cost, and the commit that made it, in data/provenance.csv
+
+data/STUDY.runs.csv is what `gene-clocks export --runs` wrote, data/STUDY.contrast.csv what
+`gene-clocks contrast --csv` wrote; `./run results` makes both.
+"""
+
+import argparse
+import csv
+import pathlib
+import re
+import statistics
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+PAGE = HERE.parent / "results.md"
+
+
+class Unfit(Exception):
+    """The page or the data are not as they must be."""
+
+
+def read(name):
+    path = HERE / "data" / name
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+    except OSError as error:
+        raise Unfit(f"{path}: {error.strerror}") from error
+
+
+def quantile(values, probability):
+    """Hyndman and Fan's type 7, as in the reports."""
+    if len(values) == 1:
+        return values[0]
+    return statistics.quantiles(values, n=1000, method="inclusive")[round(1000 * probability) - 1]
+
+
+def number(value, decimals):
+    text = f"{value:,.{decimals}f}".replace(",", "\u202f")
+    return text.replace("-", "\u2212") if float(f"{value:.{decimals}f}") else text.lstrip("-")
+
+
+def signed(value, decimals):
+    return ("+" if value > 0 else "") + number(value, decimals)
+
+
+def p_value(text):
+    value = float(text)
+    return "< 0.001" if value < 0.001 else f"{value:.3f}"
+
+
+class Arm:
+    """The runs of one arm, and how it compares with its baseline (None for a baseline)."""
+
+    def __init__(self, name, runs, contrast):
+        self.name, self.runs, self.contrast = name, runs, contrast
+        self.source, self.task, self.profile = (
+            runs[0][key] for key in ("source", "task", "profile"))
+
+    def values(self, column):
+        return [float(run[column]) for run in self.runs if run[column]]
+
+    def total(self, column):
+        return sum(self.values(column))
+
+    def ratio(self, part, whole):
+        """Of all runs together; None where there is nothing to divide by."""
+        divisor = self.total(whole)
+        return self.total(part) / divisor if divisor else None
+
+
+def arms(study, contrast=None):
+    """The arms of a study in its order; `contrast` names the file of comparisons."""
+    rows = {row["arm"]: row for row in read(f"{contrast or study}.contrast.csv")}
+    runs = {}
+    for run in read(f"{study}.runs.csv"):
+        runs.setdefault(run["arm"], []).append(run)
+    return [Arm(name, of_arm, rows.get(name)) for name, of_arm in runs.items()]
+
+
+# Columns: a heading, and what an arm has to say under it.
+
+def median(column, decimals):
+    return lambda arm: number(statistics.median(arm.values(column)), decimals)
+
+
+def middle(column, decimals):
+    """Median and middle half."""
+    def cell(arm):
+        values = arm.values(column)
+        low, high = quantile(values, 0.25), quantile(values, 0.75)
+        return (f"{number(statistics.median(values), decimals)} "
+                f"({number(low, decimals)}–{number(high, decimals)})")
+    return cell
+
+
+def share(part, whole, decimals=2):
+    """Per cent, over all runs together."""
+    def cell(arm):
+        value = arm.ratio(part, whole)
+        return "–" if value is None else number(100 * value, decimals)
+    return cell
+
+
+def rate(part, whole, per, decimals):
+    def cell(arm):
+        value = arm.ratio(part, whole)
+        return "–" if value is None else number(per * value, decimals)
+    return cell
+
+
+def of_contrast(text):
+    return lambda arm: text(arm.contrast) if arm.contrast else "–"
+
+
+def shift(row):
+    return (f"{signed(float(row['shift']), 1)} [{signed(float(row['shift_lower']), 1)}, "
+            f"{signed(float(row['shift_upper']), 1)}]")
+
+
+def effect(row):
+    return (f"{float(row['effect']):.2f} [{float(row['effect_lower']):.2f}, "
+            f"{float(row['effect_upper']):.2f}]")
+
+
+NAME = ("arm", lambda arm: f"`{arm.name}`")
+SOURCE = ("marking", lambda arm: f"`{arm.source}`")
+FITNESS = ("*f_c*, median (middle half)", middle("f_c", 1))
+RUNS = ("runs", lambda arm: str(len(arm.runs)))
+TESTS = [
+    ("identical runs", of_contrast(lambda row: f"{row['identical']} of {row['pairs']}")),
+    ("shift [95 %]", of_contrast(shift)),
+    ("A [95 %]", of_contrast(effect)),
+    ("*p* difference", of_contrast(lambda row: p_value(row["difference_p_corrected"]))),
+    ("*p* equivalence", of_contrast(lambda row: p_value(row["equivalence_p_corrected"]))),
+    ("verdict", of_contrast(lambda row: row["verdict"])),
+]
+POWER = ("power", of_contrast(lambda row: f"{float(row['power_equivalence']):.2f}"))
+ORDER = [
+    ("against cause, %", share("cause_inverted", "caused_pairs")),
+    ("against time, %", share("time_inverted", "timed_pairs")),
+    ("within genomes, %", share("genome_inverted", "genome_pairs")),
+]
+COLLISIONS = [
+    ("same innovation, %", share("same_collisions", "genes")),
+    ("different innovations, %", share("different_collisions", "genes")),
+]
+HOMOLOGY = [
+    ("missed homologies per alignment", rate("missed_homologies", "alignments", 1, 3)),
+    ("false ones", rate("false_homologies", "alignments", 1, 3)),
+]
+MATINGS = ("matings per 100 births", share("matings", "births", 1))
+BYTES = [
+    ("bytes of a broadcast", rate("bytes_sent", "messages_sent", 1, 0)),
+    ("of these the stamp", rate("stamp_bytes", "messages_sent", 1, 2)),
+]
+
+
+def table(rows, columns):
+    lines = ["| " + " | ".join(heading for heading, _ in columns) + " |",
+             "|" + " --- |" * len(columns)]
+    lines += ["| " + " | ".join(cell(arm) for _, cell in columns) + " |" for arm in rows]
+    return "\n".join(lines)
+
+
+def of_task(task, rows):
+    return [arm for arm in rows if arm.task == task]
+
+
+def provenance():
+    rows = read("provenance.csv")
+    columns = [
+        ("study", lambda row: f"`{row['study']}`"),
+        ("runs", lambda row: row["runs"]),
+        ("robot-steps, 10⁹", lambda row: number(float(row["robot_steps"]) / 1e9, 1)),
+        ("processor time, min", lambda row: number(float(row["cpu_seconds"]) / 60, 1)),
+        ("commit", lambda row: f"`{row['commit']}`"),
+        ("finished", lambda row: row["finished_at"]),
+    ]
+    return table(rows, columns)
+
+
+TABLES = {"provenance": provenance}
+
+
+def tables_of(study, name, columns, contrast=None, tasks=("navigation", "collection")):
+    for task in tasks:
+        key = f"{name} {task}" if len(tasks) > 1 else name
+        TABLES[key] = lambda task=task: table(of_task(task, arms(study, contrast)), columns)
+
+
+tables_of("markings", "markings fitness", [SOURCE, FITNESS, *TESTS])
+tables_of("markings", "markings order", [SOURCE, *ORDER, *COLLISIONS, *HOMOLOGY])
+tables_of("markings", "markings cost", [SOURCE, MATINGS, *BYTES,
+                                        ("largest counter", median("stamp_largest", 0))])
+for only in (["navigation"],):
+    tables_of("drift", "drift", [NAME, FITNESS, *ORDER, *TESTS], tasks=only)
+    tables_of("loss", "loss", [NAME, FITNESS, *ORDER, *TESTS], tasks=only)
+    tables_of("encounters", "encounters", [NAME, FITNESS, MATINGS, *TESTS], tasks=only)
+    tables_of("swarm-size", "swarm-size", [NAME, FITNESS, *ORDER, *TESTS], tasks=only)
+    tables_of("reboots", "reboots", [NAME, FITNESS, *ORDER[:1], *COLLISIONS, *TESTS], tasks=only)
+    tables_of("late-joiners", "late-joiners", [NAME, FITNESS, *ORDER, *TESTS], tasks=only)
+    tables_of("mating", "mating", [NAME, FITNESS, MATINGS, *HOMOLOGY, *TESTS], tasks=only)
+tables_of("operators", "operators", [NAME, FITNESS, MATINGS, *TESTS])
+tables_of("equal-weights", "equal-weights", [NAME, FITNESS, *TESTS])
+tables_of("markings-other-profiles", "other profiles", [NAME, FITNESS, *TESTS])
+
+PROVENANCE = ("study", "runs", "robot_steps", "cpu_seconds", "commit", "finished_at")
+
+
+def record(study, commit):
+    runs = read(f"{study}.runs.csv")
+    row = {"study": study, "runs": len(runs), "commit": commit,
+           "robot_steps": sum(int(run["robot_steps"]) for run in runs),
+           "cpu_seconds": round(sum(float(run["cpu_seconds"]) for run in runs), 1),
+           "finished_at": max(run["finished_at"] for run in runs)}
+    path = HERE / "data" / "provenance.csv"
+    others = [old for old in read(path.name) if old["study"] != study] if path.exists() else []
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, PROVENANCE, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(sorted([*others, row], key=lambda entry: entry["study"]))
+
+
+MARKED = re.compile(r"(<!-- table (?P<name>[^>]+?) -->\n).*?(<!-- end -->)", re.DOTALL)
+
+
+def with_tables(text):
+    names = [match["name"] for match in MARKED.finditer(text)]
+    if not names:
+        raise Unfit(f"{PAGE.name}: has no place for a table")
+
+    def fill(match):
+        name = match["name"]
+        if name not in TABLES:
+            raise Unfit(f"{PAGE.name}: there is no table '{name}'; there are {', '.join(TABLES)}")
+        return match[1] + "\n" + TABLES[name]() + "\n\n" + match[3]
+
+    return MARKED.sub(fill, text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true", help="change nothing, only compare")
+    parser.add_argument("--record", nargs=2, metavar=("STUDY", "COMMIT"),
+                        help="enter what a study cost")
+    arguments = parser.parse_args()
+    try:
+        if arguments.record:
+            record(*arguments.record)
+            return
+        old = PAGE.read_text(encoding="utf-8")
+        new = with_tables(old)
+    except (OSError, Unfit, KeyError) as error:
+        sys.exit(f"tables.py: {error}")
+    if arguments.check:
+        if old != new:
+            sys.exit(f"tables.py: {PAGE.name} does not say what the data say; run tables.py")
+        return
+    if old != new:
+        PAGE.write_text(new, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
