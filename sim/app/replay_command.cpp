@@ -128,10 +128,11 @@ struct Outputs {
 int run(const ReplayOptions& options) {
     const sim::Settings settings = options.selection.settings();
     const sim::Arena arena = experiment::find_arena(settings.world.arena);
+    const sim::Arena shown = sim::scaled(arena, settings.world.arena_scale);
     const FrameChoice frames = choose_frames(options, settings);
     Outputs outputs(options);
 
-    replay::ReplayRecorder recorder(settings, std::max(arena.width_px, arena.height_px), frames);
+    replay::ReplayRecorder recorder(settings, std::max(shown.width_px, shown.height_px), frames);
     experiment::RunnerOptions runner;
     runner.stop = &watch_stop_signals();
     runner.simulate = [&](const sim::Settings& run_settings, const sim::Arena& run_arena,
@@ -153,7 +154,7 @@ int run(const ReplayOptions& options) {
     }
     if (outputs.page) {
         replay::write_replay_page(
-            {settings, arena, *result, recorder, facts_of(options, settings, arena, *result)},
+            {settings, shown, *result, recorder, facts_of(options, settings, shown, *result)},
             outputs.page->stream());
     }
     if (outputs.genealogy) {

@@ -27,6 +27,15 @@ protected:
     ArenaMap map_{arena_, reach_px, radius_px};
 };
 
+TEST(ArenaMapFrame, HoldsInArenasOfAnySize) {
+    const ArenaMap map({"wide", 25'000.0, 60.0, 5.0, 5.0, 5.0, 5.0, {}}, reach_px, radius_px);
+    for (const float x : {100.0f, 12'500.0f, 24'900.0f}) {
+        EXPECT_TRUE(map.robot_touches_wall(x, 5.0f)) << x;
+        EXPECT_FALSE(map.robot_touches_wall(x, 30.0f)) << x;
+        EXPECT_TRUE(map.robot_touches_wall(x, 55.0f)) << x;
+    }
+}
+
 TEST_F(ArenaMapTest, ARobotTouchesWhatItsDiamondMeets) {
     int touching = 0;
     at_random_places(4000, [&](double x, double y) {

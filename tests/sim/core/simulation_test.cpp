@@ -236,6 +236,18 @@ TEST_F(SimulationTest, TheMeansAreThoseOfTheRobotsThatAreOn) {
     EXPECT_LT(result.samples.back().swarm_fitness, 3.0);
 }
 
+TEST_F(SimulationTest, LateRobotsTakeNoItems) {
+    // All can reach all items, and nobody moves: the one robot that is on gets every item.
+    settings_.task = Task::collection;
+    settings_.world.translation_px = 0.0;
+    settings_.world.item_reach_px = 200.0;
+    settings_.join = {.late_share = 11.0 / 12.0, .cycles = 1'000'000'000};
+    settings_.run.cycles = 500;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        EXPECT_GT(run(seed).samples.back().swarm_fitness, 150.0);
+    }
+}
+
 TEST_F(SimulationTest, AScaledArenaIsAnArenaOfThatSize) {
     for (const double factor : {0.8, 3.16}) {
         Arena large = arena_;
