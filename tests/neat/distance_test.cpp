@@ -78,6 +78,10 @@ TEST(Distance, HasNoWeightTermWhereNoMatchingGeneIsEnabledInBoth) {
     first.enabled = {0.0f, 0.0f, 0.0f, 0.0f};
     EXPECT_EQ(distance(first, second, by_sum), 0.0f);
     EXPECT_EQ(distance(first, second, by_mean), 0.0f);
+    OdneatSettings settings;
+    settings.weight_difference = WeightDifference::mean;
+    settings.mismatch = Mismatch::age;
+    EXPECT_EQ(distance(first, second, DistanceMeasure(settings)), 0.0f);
 }
 
 TEST(Distance, CountsExcessGenes) {

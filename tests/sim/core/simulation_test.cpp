@@ -236,6 +236,16 @@ TEST_F(SimulationTest, TheMeansAreThoseOfTheRobotsThatAreOn) {
     EXPECT_LT(result.samples.back().swarm_fitness, 3.0);
 }
 
+TEST_F(SimulationTest, LateRobotsStandStill) {
+    // Who moves straight on soon hits a wall in every cycle; the one robot that is on may.
+    settings_.world.rotation_deg = 0.0;
+    settings_.join = {.late_share = 11.0 / 12.0, .cycles = 1'000'000'000};
+    for (const auto actuation : {Actuation::translation_rotation, Actuation::wheels}) {
+        settings_.world.actuation = actuation;
+        EXPECT_LE(run().counters.collisions, 3000u);
+    }
+}
+
 TEST_F(SimulationTest, LateRobotsTakeNoItems) {
     // All can reach all items, and nobody moves: the one robot that is on gets every item.
     settings_.task = Task::collection;
