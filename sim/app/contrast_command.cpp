@@ -15,6 +15,7 @@ namespace gene_clocks::app {
 namespace {
 
 using report::Contrast;
+using report::name_of;
 
 struct Options {
     std::string store;
@@ -23,20 +24,6 @@ struct Options {
     report::ContrastPlan plan;
     std::string csv;
 };
-
-const char* name_of(report::ContrastVerdict verdict) {
-    switch (verdict) {
-        case report::ContrastVerdict::equivalent:
-            return "equivalent";
-        case report::ContrastVerdict::small:
-            return "small";
-        case report::ContrastVerdict::different:
-            return "different";
-        case report::ContrastVerdict::undecided:
-            break;
-    }
-    return "undecided";
-}
 
 void write_csv(const std::vector<Contrast>& contrasts, const std::string& measure,
                std::ostream& out) {

@@ -115,11 +115,25 @@ void correct(std::vector<Contrast>& contrasts, double level) {
 
 }  // namespace
 
+std::string_view name_of(ContrastVerdict verdict) {
+    switch (verdict) {
+        case ContrastVerdict::equivalent:
+            return "equivalent";
+        case ContrastVerdict::small:
+            return "small";
+        case ContrastVerdict::different:
+            return "different";
+        case ContrastVerdict::undecided:
+            break;
+    }
+    return "undecided";
+}
+
 std::vector<Contrast> contrast(const Input& input, const ContrastPlan& plan,
                                std::vector<std::string>* without_baseline) {
     check(plan);
     const std::vector<ArmNumbers> all = arm_numbers(input);
-    std::vector<Contrast> contrasts;
+    std::vector<ContrastPair> pairs;
     for (const ArmNumbers& numbers : all) {
         const sim::Settings wanted = baseline_settings(plan, numbers.arm->settings);
         if (equal(wanted, numbers.arm->settings)) continue;
@@ -127,17 +141,26 @@ std::vector<Contrast> contrast(const Input& input, const ContrastPlan& plan,
             return other.arm->profile == numbers.arm->profile && equal(other.arm->settings, wanted);
         });
         if (baseline != all.end()) {
-            contrasts.push_back(contrast_of(numbers, *baseline, plan));
+            pairs.push_back({&numbers, &*baseline});
         } else if (without_baseline != nullptr) {
             without_baseline->push_back(numbers.arm->name);
         }
     }
-    if (contrasts.empty()) {
+    if (pairs.empty()) {
         throw InputError(
             fmt::format("study \"{}\": no arm has one to be held against, which would "
                         "differ from it in {} alone",
                         input.study, fmt::join(plan.baseline, ", ")));
     }
+    return contrast_pairs(pairs, plan);
+}
+
+std::vector<Contrast> contrast_pairs(std::span<const ContrastPair> pairs,
+                                     const ContrastPlan& plan) {
+    check(plan);
+    std::vector<Contrast> contrasts;
+    for (const auto& [arm, baseline] : pairs)
+        contrasts.push_back(contrast_of(*arm, *baseline, plan));
     correct(contrasts, plan.level);
     return contrasts;
 }

@@ -2,9 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "comparison.hpp"
 #include "report.hpp"
 #include "statistics/equivalence.hpp"
 
@@ -27,6 +30,8 @@ enum class ContrastVerdict : std::uint8_t {
     different,   ///< shown to differ, and not shown to do so by less than the margin
     undecided,   ///< neither is shown
 };
+
+std::string_view name_of(ContrastVerdict verdict);
 
 /// One arm held against its baseline in one measure.
 ///
@@ -60,5 +65,15 @@ struct Contrast {
 /// Throws experiment::InputError where the plan or the runs are unfit, or no arm has a baseline.
 std::vector<Contrast> contrast(const Input& input, const ContrastPlan& plan,
                                std::vector<std::string>* without_baseline = nullptr);
+
+/// Two arms, the second of which is the baseline.
+struct ContrastPair {
+    const ArmNumbers* arm{};
+    const ArmNumbers* baseline{};
+};
+
+/// Holds each arm against the baseline it is given; the plan's baseline does not count.
+/// Throws as `contrast` does, but not where there are no pairs.
+std::vector<Contrast> contrast_pairs(std::span<const ContrastPair> pairs, const ContrastPlan& plan);
 
 }  // namespace gene_clocks::report

@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "choice_names.hpp"
+#include "chronology_shares.hpp"
 #include "comparison.hpp"
+#include "group_data.hpp"
 #include "input_error.hpp"
 #include "measures.hpp"
 #include "profile.hpp"
@@ -105,6 +107,24 @@ Json curve_json(const ArmNumbers& numbers, double sim::Sample::*field) {
     return curve;
 }
 
+/// Each share's median and quartiles over the runs that have one; null where none has.
+Json chronology_json(const ArmNumbers& numbers) {
+    Json json;
+    for (const ChronologyShare& share : chronology_shares) {
+        std::vector<double> values;
+        for (const Run* run : numbers.runs) {
+            if (const auto value = share.of(run->result)) values.push_back(*value);
+        }
+        Json& entry = json[std::string(share.id)];
+        if (values.empty()) continue;
+        entry = {{"count", values.size()},
+                 {"lower_quartile", statistics::quantile(values, 0.25)},
+                 {"median", statistics::median(values)},
+                 {"upper_quartile", statistics::quantile(values, 0.75)}};
+    }
+    return json;
+}
+
 Json cost_json(double cpu_seconds, double robot_steps) {
     Json rate = nullptr;
     if (cpu_seconds > 0.0) rate = robot_steps / cpu_seconds;
@@ -145,6 +165,7 @@ Json arm_json(const ArmNumbers& numbers) {
         json["measures"][std::string(measure.id)] =
             found == numbers.values.end() ? Json(nullptr) : summary_json(found->second);
     }
+    json["chronology"] = chronology_json(numbers);
     return json;
 }
 
@@ -359,6 +380,7 @@ nlohmann::ordered_json report_data(const Input& input) {
     json["comparisons"] = Json::array();
     for (const Comparison& comparison : comparisons)
         json["comparisons"].push_back(comparison_json(comparison));
+    json["groups"] = groups_json(comparisons);
     return json;
 }
 

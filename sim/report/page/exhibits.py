@@ -54,13 +54,12 @@ CURVE_WORDS = Markup("Lines: median over the runs; bands: middle half. Right: mi
                      "of our runs, and those published. ")
 
 
-def parts(data, folder):
+def parts(data, groups, folder):
     """The parts of the report in reading order; draws their figures below `folder`."""
     grouped = {}
-    for comparison in data["comparisons"]:
+    for comparison in _paper_comparisons(data, groups):
         key = (comparison["role"], comparison["profile"])
-        if comparison["role"] in wording.ROLES:
-            grouped.setdefault(key, {}).setdefault(comparison["task"], comparison)
+        grouped.setdefault(key, {}).setdefault(comparison["task"], comparison)
     order = list(wording.ROLES)
     result = []
     for role, profile in sorted(grouped, key=lambda key: order.index(key[0])):
@@ -69,7 +68,6 @@ def parts(data, folder):
         (folder / identifier).mkdir(parents=True, exist_ok=True)
         part.figures.extend(_draw(part, folder))
         result.append(part)
-    folder.mkdir(exist_ok=True)
     return result
 
 
@@ -77,16 +75,19 @@ def first_of(grouped, role):
     return next(key for key in grouped if key[0] == role)
 
 
-def other_comparisons(data):
-    """The comparisons that are in no part: other parameters, or a second one of a kind."""
-    seen = set()
-    others = []
-    for comparison in data["comparisons"]:
-        key = (comparison["role"], comparison["profile"], comparison["task"])
-        if comparison["role"] not in wording.ROLES or key in seen:
-            others.append(comparison)
-        seen.add(key)
-    return others
+def _paper_comparisons(data, groups):
+    """Those with the paper's parameters and markings, unless the study varies other settings."""
+    for group in groups:
+        comparison = data["comparisons"][group.plain["arms"][0]["comparison"]]
+        if (not group.factors and comparison["role"] in wording.ROLES
+                and any(arm.source in wording.PAPER_SOURCES for arm in group.arms)):
+            yield comparison
+
+
+def _plain(part, task):
+    """A comparison's numbers, of the paper's two markings alone."""
+    plain = part.comparisons[task].plain()
+    return {**plain, "arms": [arm for arm in plain["arms"] if arm["source"] in wording.PAPER_SOURCES]}
 
 
 def _draw(part, folder):
@@ -99,7 +100,7 @@ def _draw(part, folder):
 
 
 def _fitness(part, task, folder):
-    plain = part.comparisons[task].plain()
+    plain = _plain(part, task)
     figure = figures.draw_curves(
         plain, _cycles(plain), "swarm_fitness", "Swarm fitness $F_s$ (energy)", "final_swarm_fitness",
         "last sample", _ranges(part, task, 3), top=_setting(plain, "odneat.energy_maximum"))
@@ -109,7 +110,7 @@ def _fitness(part, task, folder):
 
 
 def _measures(part, task, folder):
-    plain = part.comparisons[task].plain()
+    plain = _plain(part, task)
     figure = figures.draw_measures(plain, MEASURE_PANELS, _ranges(part, task, 5))
     caption = ("Boxes: quartiles and median; whiskers: the farthest run within 1.5 times the "
                "box; points: single runs. A <i>t<sub>f</sub></i> at the end of the run means that the "
@@ -120,7 +121,7 @@ def _measures(part, task, folder):
 
 
 def _species(part, task, folder):
-    plain = part.comparisons[task].plain()
+    plain = _plain(part, task)
     figure = figures.draw_curves(
         plain, _cycles(plain), "species", "Species in a local population", "species",
         _share_label(plain), _ranges(part, task, 7))
@@ -129,7 +130,7 @@ def _species(part, task, folder):
 
 
 def _size(part, task, folder):
-    plain = part.comparisons[task].plain()
+    plain = _plain(part, task)
     figure = figures.draw_curves(
         plain, _cycles(plain), "controller_size", "Neurons and connections", "controller_size",
         _share_label(plain), _size_ranges(part, task))
@@ -138,7 +139,7 @@ def _size(part, task, folder):
 
 
 def _sizes(part, folder):
-    panels = [(part.comparisons[task].plain(), wording.TASKS[task].capitalize(),
+    panels = [(_plain(part, task), wording.TASKS[task].capitalize(),
                _size_ranges(part, task)) for task in TASKS if task in part.comparisons]
     caption = Markup("Mean size over the last part of each run, which <i>f<sub>c</sub></i> is taken "
                      "over, too. Beside the boxes: what was published, as in the curves above.")

@@ -15,17 +15,13 @@ from matplotlib.lines import Line2D  # noqa: E402
 from matplotlib.patches import Patch  # noqa: E402
 from matplotlib.ticker import FuncFormatter, MaxNLocator  # noqa: E402
 
+import palette  # noqa: E402
 import wording  # noqa: E402
 
-# Okabe and Ito's colours, which all common kinds of colour vision tell apart; the methods differ in
-# line style and marker, too.
-COLOURS = {"gene-clock": "#0072b2", "timestamp": "#d55e00"}
-LINE_STYLES = {"gene-clock": "-", "timestamp": (0, (4, 2))}
-POINTS = {"gene-clock": "o", "timestamp": "s"}
 ORIGIN_LABELS = {"ours": "ours", "reference": "ref.", "paper": "paper"}
 ORIGIN_MARKERS = {"ours": "o", "reference": "D", "paper": "^"}
 ORIGIN_LINES = {"ours": "-", "reference": "-", "paper": (0, (1, 1))}
-MUTED = "#5f6670"
+INK, MUTED = "#1b1f24", "#5f6670"
 
 WIDTH_INCHES = 6.5
 REFERENCE_CYCLE = 10_000
@@ -45,6 +41,11 @@ def save(figure, path):
     plt.close(figure)
 
 
+def literal(text):
+    """A text for a figure that is no formula, whatever it holds."""
+    return text.replace("$", r"\$")
+
+
 def draw_curves(comparison, cycles, curve, label, end_measure, end_label, published, top=None):
     """Median and interquartile band over time; beside them, how the runs end and others' ended."""
     early, late = [], []
@@ -56,18 +57,18 @@ def draw_curves(comparison, cycles, curve, label, end_measure, end_label, publis
         gridspec_kw={"width_ratios": [3.3, columns / 3]})
     arms = comparison["arms"]
     for arm in arms:
-        _draw_curve(axes, arm, curve)
+        draw_curve(axes, arm, curve, palette.SOURCES[arm["source"]])
     if cycles >= REFERENCE_CYCLE:
         for entry in early:
             _draw_interval(axes, REFERENCE_CYCLE + 0.007 * cycles * _side(entry["source"]), entry)
     axes.set(xlabel="Control cycle", ylabel=label, xlim=(0, cycles))
-    axes.xaxis.set_major_formatter(_thousands)
+    axes.xaxis.set_major_formatter(thousands)
     axes.xaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
     if top is not None:
         axes.set_ylim(0, top)
     _draw_ends(side, arms, end_measure, late)
     side.set_title(end_label, color=MUTED)
-    _draw_legend(figure, _method_handles(arms) + _origin_handles(published))
+    draw_head(figure, _method_handles(arms) + _origin_handles(published))
     return figure
 
 
@@ -82,10 +83,10 @@ def draw_measures(comparison, panels, published):
                     [entry for entry in published if entry["measure"] == measure])
         axes.set_title(title)
         axes.set_ylabel(label)
-        axes.yaxis.set_major_formatter(_thousands)
+        axes.yaxis.set_major_formatter(thousands)
         if from_zero:
             axes.set_ylim(bottom=-0.03 * axes.get_ylim()[1])
-    _draw_legend(figure, _origin_handles(published))
+    draw_head(figure, _origin_handles(published))
     return figure
 
 
@@ -96,7 +97,7 @@ def draw_sizes(panels):
         _draw_boxes(axes, comparison["arms"], "controller_size", published)
         axes.set_title(title)
         axes.set_ylabel("Neurons and connections")
-    _draw_legend(figure, _origin_handles([entry for panel in panels for entry in panel[2]]))
+    draw_head(figure, _origin_handles([entry for panel in panels for entry in panel[2]]))
     return figure
 
 
@@ -105,17 +106,16 @@ def _side(source):
     return -1 if source == "gene-clock" else 1
 
 
-def _draw_curve(axes, arm, curve):
-    colour = COLOURS[arm["source"]]
+def draw_curve(axes, arm, curve, look):
     numbers = arm["curves"][curve]
     axes.fill_between(arm["cycles"], numbers["lower_quartile"], numbers["upper_quartile"],
-                      color=colour, alpha=0.2, linewidth=0)
-    axes.plot(arm["cycles"], numbers["median"], color=colour, linestyle=LINE_STYLES[arm["source"]])
+                      color=look.colour, alpha=0.2, linewidth=0)
+    axes.plot(arm["cycles"], numbers["median"], color=look.colour, linestyle=look.line)
 
 
 def _draw_interval(axes, x, entry):
     """A middle half as a bar with ends, its median (where known) as a marker."""
-    colour = COLOURS[entry["source"]]
+    colour = palette.SOURCES[entry["source"]].colour
     origin = entry["origin"]
     axes.vlines(x, entry["lower"], entry["upper"], color=colour, linewidth=1.4,
                 linestyle=ORIGIN_LINES[origin], zorder=4)
@@ -152,16 +152,14 @@ def _draw_boxes(axes, arms, measure, published):
         summary = arm["measures"][measure]
         if summary is None:
             continue
-        colour = COLOURS[arm["source"]]
+        colour = palette.SOURCES[arm["source"]].colour
         line = {"color": colour, "linewidth": 1.2}
-        axes.bxp([{"med": summary["median"], "q1": summary["lower_quartile"],
-                   "q3": summary["upper_quartile"], "whislo": summary["lower_whisker"],
-                   "whishi": summary["upper_whisker"]}],
+        axes.bxp([box_numbers(summary)],
                  positions=[position], widths=0.42, showfliers=False, manage_ticks=False,
                  boxprops=line, whiskerprops=line, capprops=line,
                  medianprops={"color": colour, "linewidth": 2.2})
-        axes.plot([position + _spread(i) for i in range(summary["count"])], summary["values"],
-                  linestyle="none", marker=POINTS[arm["source"]], markersize=2.6,
+        axes.plot([position + spread(i) for i in range(summary["count"])], summary["values"],
+                  linestyle="none", marker=palette.SOURCES[arm["source"]].marker, markersize=2.6,
                   markeredgewidth=0, alpha=0.45, color=colour, zorder=1)
         theirs = [entry for entry in published if entry["source"] == arm["source"]]
         for i, entry in enumerate(theirs):
@@ -171,17 +169,28 @@ def _draw_boxes(axes, arms, measure, published):
     axes.tick_params(axis="x", length=0)
 
 
-def _spread(i):
+def box_numbers(summary):
+    """As Matplotlib's bxp wants them."""
+    return {"med": summary["median"], "q1": summary["lower_quartile"],
+            "q3": summary["upper_quartile"], "whislo": summary["lower_whisker"],
+            "whishi": summary["upper_whisker"]}
+
+
+def spread(i):
     """Where the i-th point stands across its box: evenly spread, and the same every time."""
     golden_ratio = 0.6180339887498949
     return 0.34 * ((i * golden_ratio) % 1.0 - 0.5)
 
 
 def _method_handles(arms):
-    handles = [Line2D([], [], color=COLOURS[arm["source"]], linestyle=LINE_STYLES[arm["source"]],
+    handles = [Line2D([], [], color=palette.SOURCES[arm["source"]].colour, linestyle=palette.SOURCES[arm["source"]].line,
                       label=f"{wording.SOURCES[arm['source']]} ({arm['runs']} runs)")
                for arm in arms]
-    return handles + [Patch(facecolor=MUTED, alpha=0.25, label="middle half of the runs")]
+    return handles + [middle_half_handle()]
+
+
+def middle_half_handle():
+    return Patch(facecolor=MUTED, alpha=0.25, label="middle half of the runs")
 
 
 def _origin_handles(published):
@@ -191,13 +200,18 @@ def _origin_handles(published):
             if any(entry["origin"] == origin for entry in published)]
 
 
-def _draw_legend(figure, handles):
-    """At the top of the figure, in room that is kept for it."""
-    rows = (len(handles) + 2) // 3
-    height = 1.0 - rows * 0.21 / figure.get_figheight()
+def draw_head(figure, handles, title="", columns=3):
+    """Title and legend at the top of the figure, in room that is kept for them."""
+    title_inches = 0.25 if title else 0.0
+    rows = (len(handles) + columns - 1) // columns
+    height = 1.0 - (title_inches + rows * 0.21) / figure.get_figheight()
     figure.get_layout_engine().set(rect=(0.0, 0.0, 1.0, height), h_pad=0.07, w_pad=0.07)
+    if title:
+        figure.text(0.008, 1.0 - 0.05 / figure.get_figheight(), title, va="top", fontweight="bold")
     if handles:
-        figure.legend(handles=handles, loc="upper left", ncols=3, columnspacing=1.6, borderaxespad=0.1)
+        top = 1.0 - title_inches / figure.get_figheight()
+        figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.0, top), ncols=columns,
+                      columnspacing=1.6, borderaxespad=0.1)
 
 
-_thousands = FuncFormatter(lambda value, _: wording.number(value, 0))
+thousands = FuncFormatter(lambda value, _: wording.number(value, 0))

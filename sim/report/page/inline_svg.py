@@ -7,14 +7,15 @@ it has a text for those who do not see it.
 import re
 from html import escape
 
-# The colours of figures.mplstyle and figures.py, by the CSS variable that stands for each.
+import palette
+
+# The colours of figures.mplstyle and palette.py, by the CSS variable that stands for each.
 VARIABLES = {
     "#1b1f24": "--ink",
     "#5f6670": "--muted",
     "#d9dde2": "--grid",
-    "#0072b2": "--gene-clock",
-    "#d55e00": "--timestamp",
     "#ffffff": "--paper",
+    **{look.colour: f"--{source}" for source, look in palette.SOURCES.items()},
 }
 
 

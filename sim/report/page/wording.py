@@ -1,9 +1,23 @@
 """The words and number formats of figures and page."""
 
-SOURCES = {"gene-clock": "Gene Clocks", "timestamp": "Timestamps"}
+SOURCES = {
+    "gene-clock": "Gene Clocks",
+    "gene-clock-no-merge": "Gene Clocks, no merge",
+    "timestamp": "Timestamps",
+    "timestamp-drift": "Drifting timestamps",
+    "random-identifier": "Random identifiers",
+    "global-counter": "Global counter",
+    "congruence-class": "Congruence classes",
+    "content-hash": "Content hash",
+    "hybrid-logical-clock": "Hybrid logical clocks",
+}
+PAPER_SOURCES = ("gene-clock", "timestamp")
 TASKS = {"navigation": "navigation", "collection": "item collection"}
 ORIGINS = {"paper": "paper", "reference": "reference system"}
 ROLES = {"as-run": "As run", "as-printed": "As printed"}
+
+VERDICTS = {"equivalent": "equivalent", "small": "small difference", "different": "different",
+            "undecided": "undecided"}
 
 # By measure: its symbol in HTML, what it is, its unit, and the decimals to show.
 MEASURES = {
@@ -30,6 +44,13 @@ def number(value, decimals):
     """A number as people read it, for example '40 000' (narrow no-break spaces) or '−1.5'."""
     text = minus(f"{value:,.{decimals}f}".replace(",", "\u202f"))
     return text if text.strip("\u22120.") else text.lstrip("\u2212")
+
+
+def quantity(value):
+    """A value of a setting: all its digits, as in '40 000', '0.05' or '1e−05'."""
+    if float(value).is_integer() and abs(value) < 1e15:
+        return number(value, 0)
+    return minus(f"{value:g}") if float(f"{value:g}") == value else minus(repr(value))
 
 
 def p_value(value):

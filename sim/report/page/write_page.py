@@ -7,6 +7,7 @@ where it does not exist. Where something is amiss the folder stays as it was.
 import shutil
 import sys
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
 import jinja2
@@ -14,12 +15,29 @@ import jinja2
 import exhibits
 import figures
 import report_data
+import study_figures
+import study_groups
 import wording
 
 EXIT_BAD_INPUT = 2
 
 
-def page(data, parts):
+SHOWN_MEASURES = ("f_c", "f_b", "t_f", "f_a", "species", "controller_size")
+
+
+@dataclass(frozen=True)
+class GroupFigures:
+    """The figures of a group, by what they are about."""
+
+    fitness: list
+
+
+def draw_group(group, folder):
+    return GroupFigures([figure for figure in (study_figures.curves(group, folder),
+                                               *study_figures.boxes(group, folder)) if figure])
+
+
+def page(data, parts, groups, drawn):
     """The text of index.html."""
     here = Path(__file__).parent
     environment = jinja2.Environment(
@@ -27,20 +45,25 @@ def page(data, parts):
         trim_blocks=True, lstrip_blocks=True)
     environment.globals.update(
         show=report_data.show, show_exact=report_data.show_exact,
-        show_p_value=report_data.show_p_value, wording=wording,
+        show_p_value=report_data.show_p_value, wording=wording, groups=study_groups,
+        shown_measures=SHOWN_MEASURES,
         style=(here / "page.css").read_text(encoding="utf-8"))
     return environment.get_template("page.html.jinja").render(
-        data=data, parts=parts, others=exhibits.other_comparisons(data))
+        data=data, parts=parts, all_groups=groups, figures=drawn)
 
 
 def write(data_path, folder):
     data = report_data.load(data_path)
     figures.use_style()
     folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=folder) as place:
-        unfinished = Path(place)
-        parts = exhibits.parts(data, unfinished / "figures")
-        (unfinished / "index.html").write_text(page(data, parts), encoding="utf-8")
+    with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=folder) as temporary:
+        unfinished = Path(temporary)
+        place = unfinished / "figures"
+        place.mkdir()
+        groups = study_groups.read_groups(data)
+        parts = exhibits.parts(data, groups, place)
+        drawn = {group.identifier: draw_group(group, place) for group in groups}
+        (unfinished / "index.html").write_text(page(data, parts, groups, drawn), encoding="utf-8")
         shutil.copyfile(data_path, unfinished / "report.json")
         shutil.rmtree(folder / "figures", ignore_errors=True)
         for name in ("figures", "report.json", "index.html"):

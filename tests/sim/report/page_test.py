@@ -64,18 +64,22 @@ def resolve(data, path):
 
 
 @functools.cache
-def sample_report():
+def sample_report(kind="paper"):
     """The folder of a report that all tests read and none changes."""
     folder = Path(tempfile.mkdtemp(prefix="gene-clocks-page-"))
     atexit.register(shutil.rmtree, folder)
-    subprocess.run([WRITE_SAMPLE_REPORT, str(folder)], check=True)
+    subprocess.run([WRITE_SAMPLE_REPORT, str(folder), kind], check=True)
     return folder
 
 
-class ReportTest(unittest.TestCase):
+class AnyReport:
+    """What holds of the report of every kind of study."""
+
+    KIND = "paper"
+
     @classmethod
     def setUpClass(cls):
-        cls.folder = sample_report()
+        cls.folder = sample_report(cls.KIND)
         cls.text = (cls.folder / "index.html").read_text(encoding="utf-8")
         cls.data = json.loads((cls.folder / "report.json").read_text(encoding="utf-8"))
         cls.page = Page(cls.text)
@@ -112,37 +116,56 @@ class ReportTest(unittest.TestCase):
                 if target:
                     self.assertIn(target.lstrip("#"), identifiers, f"<{tag} {name}>")
 
-    def test_every_figure_is_there_on_the_page_and_as_files(self):
+    def test_figures_are_there_on_the_page_and_as_files(self):
         svgs = self.page.with_tag("svg")
-        # Figures 3 to 11 as run; 3, 5, 7, 9 and 11 as printed, where only navigation was run.
-        self.assertEqual(len(svgs), 9 + 5)
+        files = sorted(path.relative_to(self.folder).as_posix()
+                       for path in self.folder.glob("figures/**/*") if path.is_file())
+        self.assertEqual(len(files), 2 * len(svgs))
+        linked = [attributes["href"] for attributes in self.page.with_tag("a")
+                  if attributes["href"].startswith("figures/")]
+        self.assertEqual(sorted(linked), files)
         for attributes in svgs:
             self.assertEqual(attributes["role"], "img")
-        words = "".join(self.page.text)
-        for number in range(3, 12):
-            self.assertIn(f"Figure {number}. ", words)
-        files = sorted(path.relative_to(self.folder).as_posix()
-                       for path in self.folder.glob("figures/*/*"))
-        self.assertEqual(len(files), 2 * (9 + 5))
         for name in files:
+            self.assertRegex(name, r"^figures/[A-Za-z0-9_/-]+\.(png|svg)$")
             content = (self.folder / name).read_bytes()
             if name.endswith(".png"):
                 self.assertTrue(content.startswith(b"\x89PNG\r\n\x1a\n"))
                 self.assertGreater(int.from_bytes(content[16:20], "big"), 1000)  # pixels wide
+                self.assertLess(len(content), 300_000)
             else:
                 self.assertEqual(ElementTree.fromstring(content).tag, "{http://www.w3.org/2000/svg}svg")
-                self.assertNotRegex(content.decode(), r"<dc:date>|\d{4}-\d\d-\d\dT")
+                self.assertNotRegex(content.decode(), r"<dc:date>|\d{4}-\d\d-\d\dT|<image")
 
     def test_figures_have_texts_for_those_who_do_not_see_them(self):
         titles = re.findall(r"<title id=\"([^\"]+)\">([^<]+)</title>", self.text)
         labelled = [attributes["aria-labelledby"] for attributes in self.page.with_tag("svg")]
         self.assertEqual([identifier for identifier, _ in titles], labelled)
         for _, title in titles:
-            self.assertRegex(title, r"Gene Clocks.* median [\d\u202f.]+")
-            self.assertRegex(title, r"Timestamps.* median [\d\u202f.]+")
+            self.assertRegex(title, r"[Mm]edian [\d\u202f.]+")
+
+    def test_every_contrast_is_shown_with_its_verdict(self):
+        paths = {path for path, _, _ in self.page.shown}
+        found = []
+        for i, group in enumerate(self.data["groups"]):
+            for kind in ("treatment_contrasts", "condition_contrasts"):
+                for j, contrast in enumerate(group[kind]):
+                    place = f"groups.{i}.{kind}.{j}"
+                    for key in ("median", "shift", "effect", "difference_p_corrected",
+                                "equivalence_p_corrected", "power_equivalence", "identical"):
+                        self.assertIn(f"{place}.{key}", paths)
+                    found.append(contrast["verdict"])
+        self.assertEqual(re.findall(r"class=\"found-(\w+)\"", self.text), found)
+
+    def test_every_arm_is_shown(self):
+        paths = {path for path, _, _ in self.page.shown}
+        for i, comparison in enumerate(self.data["comparisons"]):
+            for j, _ in enumerate(comparison["arms"]):
+                self.assertIn(f"comparisons.{i}.arms.{j}.measures.f_c.median", paths)
+                self.assertIn(f"comparisons.{i}.arms.{j}.median_counters.births", paths)
 
     def test_numbers_are_those_of_the_data(self):
-        self.assertGreater(len(self.page.shown), 800)
+        self.assertGreater(len(self.page.shown), 15)
         for path, value, text in self.page.shown:
             number = resolve(self.data, path)
             self.assertEqual(float(value), float(number), path)
@@ -152,6 +175,21 @@ class ReportTest(unittest.TestCase):
             plain = text.replace("\u202f", "").replace("\u2212", "-")
             decimals = len(plain.partition(".")[2])
             self.assertLessEqual(abs(float(plain) - number), 0.5000001 * 10.0 ** -decimals, path)
+
+
+class PaperReportTest(AnyReport, unittest.TestCase):
+    def test_every_exhibit_is_there(self):
+        # Figures 3 to 11 as run; 3, 5, 7, 9 and 11 as printed, where only navigation was run.
+        self.assertEqual(len(list(self.folder.glob("figures/as-*/*.png"))), 9 + 5)
+        words = "".join(self.page.text)
+        for number in range(3, 12):
+            self.assertIn(f"Figure {number}. ", words)
+        titles = re.findall(r"<title id=\"as-[^\"]+\">([^<]+)</title>", self.text)
+        self.assertEqual(len(titles), 9 + 5)
+        for title in titles:
+            self.assertRegex(title, r"Gene Clocks.* median [\d\u202f.]+")
+            self.assertRegex(title, r"Timestamps.* median [\d\u202f.]+")
+        self.assertGreater(len(self.page.shown), 800)
 
     def test_every_measure_and_verdict_is_shown(self):
         paths = {path for path, _, _ in self.page.shown}
@@ -181,6 +219,57 @@ class ReportTest(unittest.TestCase):
         self.assertIn("differs", cells)
 
 
+class MarkingsReportTest(AnyReport, unittest.TestCase):
+    KIND = "markings"
+
+    def test_all_nine_sources_are_told_apart(self):
+        for task in ("navigation", "collection"):
+            text = re.search(f"<title id=\"{task}-mended-f_c-text\">([^<]+)</title>", self.text).group(1)
+            for source in ("Gene Clocks", "Gene Clocks, no merge", "Timestamps", "Drifting timestamps",
+                           "Random identifiers", "Global counter", "Congruence classes", "Content hash",
+                           "Hybrid logical clocks"):
+                self.assertIn(f" {source}: median ", text)
+        svg = (self.folder / "figures/navigation-mended-f_c.svg").read_text(encoding="utf-8")
+        self.assertEqual(len(set(re.findall(r"stroke: (#[0-9a-f]{6}); stroke-width: 2.2", svg))), 9)
+
+
+class StudyReportTest(AnyReport, unittest.TestCase):
+    KIND = "loss"
+
+    def test_the_papers_exhibits_are_for_the_papers_settings(self):
+        self.assertEqual(list(self.folder.glob("figures/as-*")), [])
+        self.assertNotIn("Figure 3", "".join(self.page.text))
+
+
+class DriftReportTest(AnyReport, unittest.TestCase):
+    KIND = "drift"
+
+
+class OperatorsReportTest(AnyReport, unittest.TestCase):
+    KIND = "operators"
+
+
+class ReadingsReportTest(AnyReport, unittest.TestCase):
+    KIND = "readings"
+
+
+class SingleArmReportTest(AnyReport, unittest.TestCase):
+    KIND = "single"
+
+
+class HostileReportTest(AnyReport, unittest.TestCase):
+    KIND = "hostile"
+
+    def test_names_are_text(self):
+        words = "".join(self.page.text)
+        for name in ("<script>alert('title')</script>", "<script>alert('arm')</script>",
+                     "'\"><svg onload=alert(2)>", "{{ 7 * 7 }}&lt;", "{{ 7 * 7 }}</b>.toml",
+                     "\"><img src=x onerror=alert(1)>"):
+            self.assertIn(name, words)
+        for tag, attributes in self.page.elements:  # svg is ours
+            self.assertNotIn("onload", attributes, tag)
+
+
 class PageProgramTest(unittest.TestCase):
     """write_page.py by itself, with data that are not what they should be."""
 
@@ -208,8 +297,8 @@ class PageProgramTest(unittest.TestCase):
         self.assert_refused("", "report.json: Expecting value")
         self.assert_refused("[]", "format 1")
         self.assert_refused('{"format": 2}', "format 1")
-        self.assert_refused('{"format": 1}', "missing or misplaced.*comparisons")
-        self.assert_refused('{"format": 1, "comparisons": [{}]}', "missing or misplaced")
+        self.assert_refused('{"format": 1}', "missing or misplaced.*groups")
+        self.assert_refused('{"format": 1, "groups": [{}]}', "missing or misplaced")
 
     def test_data_that_lack_something_are_refused(self):
         whole = (sample_report() / "report.json").read_text(encoding="utf-8")
@@ -217,7 +306,7 @@ class PageProgramTest(unittest.TestCase):
         del lacking["comparisons"][0]["arms"][1]["curves"]["species"]
         self.assert_refused(json.dumps(lacking), "species")
         lacking = json.loads(whole)
-        del lacking["comparisons"][1:]
+        del lacking["comparisons"][1:], lacking["groups"][1:]
         del lacking["provenance"]["cost"]  # not needed before the page's last section
         self.assert_refused(json.dumps(lacking), "cost")
 

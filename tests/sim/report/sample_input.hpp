@@ -5,11 +5,14 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "choice_names.hpp"
 #include "profile.hpp"
 #include "report.hpp"
+#include "settings_io.hpp"
 
 namespace gene_clocks::report {
 
@@ -84,6 +87,86 @@ inline Input sample_input() {
           SampleArm{.parameters = "A", .level = 158.0},
           SampleArm{.source = timestamp, .parameters = "A", .level = 159.0}})
         input.arms.push_back(sample_arm(sample));
+    return input;
+}
+
+/// An arm of few, short runs with some settings of its own.
+inline Arm short_arm(sim::Task task, sim::Source source, const std::vector<std::string>& settings,
+                     std::string name = {}) {
+    Arm arm;
+    arm.profile = "mended";
+    arm.settings = experiment::select({.task = task, .source = source});
+    arm.settings.run.cycles = 2000;
+    arm.name =
+        std::string(experiment::name_of(task)) + "-" + std::string(experiment::name_of(source));
+    for (const std::string& setting : settings) {
+        experiment::assign(arm.settings, setting);
+        arm.name += "-" + setting;
+    }
+    if (!name.empty()) arm.name = std::move(name);
+    for (std::uint64_t seed = 1; seed <= 3; ++seed)
+        arm.runs.push_back(sample_run(arm.settings, 140.0, seed));
+    return arm;
+}
+
+/// Every setting of one list with every one of the other.
+inline std::vector<std::vector<std::string>> combinations(const std::vector<std::string>& ones,
+                                                          const std::vector<std::string>& others) {
+    std::vector<std::vector<std::string>> all;
+    for (const std::string& one : ones)
+        for (const std::string& other : others) all.push_back({one, other});
+    return all;
+}
+
+/// Made-up runs of a kind of study: "paper", "markings" (every source), "loss" (sources and a
+/// number), "drift" (two numbers, and gene clocks once), "operators" (two choices and a number),
+/// "readings" (one thing changed at a time), "single" (one arm) or "hostile" (names that are HTML).
+inline Input sample_study(std::string_view kind) {
+    using enum sim::Task;
+    using enum sim::Source;
+    if (kind == "paper") return sample_input();
+    Input input;
+    input.study = input.title = kind;
+    const auto add = [&](sim::Source source, const std::vector<std::string>& settings,
+                         std::string name = {}) {
+        input.arms.push_back(short_arm(navigation, source, settings, std::move(name)));
+    };
+    if (kind == "markings") {
+        for (const sim::Task task : {navigation, collection})
+            for (std::size_t i = 0; i < experiment::choice_names<sim::Source>.size(); ++i)
+                input.arms.push_back(short_arm(task, static_cast<sim::Source>(i), {}));
+    } else if (kind == "loss") {
+        for (const char* loss : {"radio.loss=0", "radio.loss=0.5", "radio.loss=0.99"})
+            for (const sim::Source source : {gene_clock, gene_clock_no_merge, timestamp})
+                add(source, {loss});
+    } else if (kind == "drift") {
+        add(gene_clock, {});
+        for (const auto& settings :
+             combinations({"timestamp.offset_cycles=0", "timestamp.offset_cycles=1000"},
+                          {"timestamp.drift_ppm=0", "timestamp.drift_ppm=100"}))
+            add(timestamp, settings);
+    } else if (kind == "operators") {
+        for (const char* p_mate : {"odneat.p_mate=0.1", "odneat.p_mate=0.8"})
+            for (auto settings :
+                 combinations({"odneat.crossover=uniform", "odneat.crossover=one-point"},
+                              {"odneat.mismatch=excess-disjoint", "odneat.mismatch=age"})) {
+                settings.emplace_back(p_mate);
+                add(gene_clock, settings);
+            }
+    } else if (kind == "readings") {
+        for (const char* setting : {"world.item_slip=0", "world.item_slip=0.15",
+                                    "world.acceleration_px=4", "odneat.held_reports=acceptable"})
+            add(gene_clock, {setting});
+    } else if (kind == "single") {
+        add(timestamp, {});
+    } else if (kind == "hostile") {
+        input.study = input.title = "<script>alert('title')</script>";
+        input.command = "\"><img src=x onerror=alert(1)>";
+        add(gene_clock, {}, "<script>alert('arm')</script>");
+        add(timestamp, {}, "'\"><svg onload=alert(2)>");
+        add(timestamp, {"world.arena=<b>{{ 7 * 7 }}</b>.toml"}, "{{ 7 * 7 }}&lt;");
+        for (Arm& arm : input.arms) arm.profile = "<i>$x^{$ ../../profile</i>.toml";
+    }
     return input;
 }
 

@@ -1,13 +1,14 @@
-// Writes the report of made-up runs, for page_test.py to look at: write_sample_report FOLDER
+// Writes the report of made-up runs, for page_test.py to look at: write_sample_report FOLDER KIND
 #include <iostream>
 
 #include "report.hpp"
 #include "sample_input.hpp"
 
 int main(int count, char** arguments) {
-    if (count != 2) {
-        std::cerr << "usage: write_sample_report FOLDER\n";
+    if (count != 3) {
+        std::cerr << "usage: write_sample_report FOLDER KIND\n";
         return 2;
     }
-    gene_clocks::report::write_report(gene_clocks::report::sample_input(), arguments[1]);
+    gene_clocks::report::write_report(gene_clocks::report::sample_study(arguments[2]),
+                                      arguments[1]);
 }
