@@ -1,7 +1,6 @@
 #include "gene_history.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace gene_clocks::replay {
 namespace {
@@ -29,7 +28,13 @@ void GeneHistory::gene_marked(RobotId robot, InnovationNumber mark, double now_c
     const auto next = static_cast<GeneIndex>(genes_.size());
     const auto [known, is_new] = index_[mark.robot].try_emplace(mark.counter, next);
     if (!is_new) {
-        ++genes_[known->second].times_marked;
+        Gene& gene = genes_[known->second];
+        ++gene.times_marked;
+        const bool is_lost = known->second >= genesis_genes_ && !gene.was_active;
+        if (is_lost && std::ranges::find(fresh_, known->second) == fresh_.end()) {
+            gene.genome.robot = robot;
+            fresh_.push_back(known->second);
+        }
         return;
     }
     Gene gene;
@@ -79,20 +84,21 @@ std::size_t GeneHistory::find_gene_set(const std::shared_ptr<const Topology>& to
 void GeneHistory::complete(GeneIndex index, const neat::Genome& genome, std::size_t gene_set) {
     Gene& gene = genes_[index];
     const Topology& topology = *genome.topology;
+    const auto& marks = topology.connection_marks;
+    const auto found = std::ranges::lower_bound(marks, gene.mark);
+    const bool is_connection = found != marks.end() && *found == gene.mark;
+    const bool is_neuron = !is_connection && topology.find_neuron(gene.mark);
+    if (!is_connection && !is_neuron) return;
+    gene.was_active = true;
     gene.genome = genome.id;
     gene.gene_set = gene_set;
     const auto build_upon = [&](InnovationNumber mark) {
         gene.builds_upon.push_back(index_.at(mark.robot).at(mark.counter));
     };
-    if (topology.find_neuron(gene.mark)) {
+    if (is_neuron) {
         gene.kind = GeneKind::neuron;
         if (const auto* split = find_split(topology, gene.mark)) build_upon(*split);
         return;
-    }
-    const auto& marks = topology.connection_marks;
-    const auto found = std::ranges::lower_bound(marks, gene.mark);
-    if (found == marks.end() || *found != gene.mark) {
-        throw std::logic_error("a robot marked a gene that its genome does not have");
     }
     const auto& ends = topology.connection_ends[static_cast<std::size_t>(found - marks.begin())];
     gene.kind = ends.recurrent ? GeneKind::recurrent_connection : GeneKind::connection;

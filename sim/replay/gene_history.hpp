@@ -23,9 +23,12 @@ struct Gene {
     GeneKind kind = GeneKind::neuron;
     double created_cycle = 0.0;  ///< genesis genes: 0
     neat::GenomeId genome;       ///< the one that it was created in; its robot is the creator
-    /// Unless 1, robots that did not know of each other gave the mark; then all else here is of the
-    /// first time. No clock does that; other markings do.
+    /// Unless 1, robots that did not know of each other gave the mark, or one that had lost its
+    /// counter; then all else here is of the first time.
     std::uint32_t times_marked = 1;
+    /// Whether the genome became active. It did not where its robot rebooted before; then what
+    /// follows is not known, and nobody ever carried the gene.
+    bool was_active = false;
     /// A connection: the neurons from and to which it leads. A hidden neuron: the connection that
     /// it splits. A genesis neuron: nothing.
     std::vector<GeneIndex> builds_upon;

@@ -261,7 +261,7 @@ function describeOrigin(recording, gene) {
   const name = (other) => (other < recording.genesis ? `${recording.mark(other)} of the initial network` : recording.mark(other));
   const upon = genes.upon[gene].map(name);
   const what = genes.kind[gene] === 0
-    ? `a neuron${upon.length ? ` that splits connection ${upon[0]}` : ''}`
+    ? `a neuron${upon.length > 0 ? ` that splits connection ${upon[0]}` : ''}`
     : `a ${recording.kind(gene)} from ${upon[0]} to ${upon[1] === upon[0] ? 'itself' : upon[1]}`;
   const times = genes.marked[gene] > 1 ? ` The same mark was given ${genes.marked[gene]} times.` : '';
   return `${what}; created in cycle ${grouped(genes.created[gene])} by robot ${genes.creator[gene]}.${times}`;

@@ -126,6 +126,40 @@ TEST(GeneHistory, GenesisGenesComeFirst) {
     EXPECT_TRUE(history.gene_sets().at(0).empty());
 }
 
+// A robot that reboots right after a birth loses what it has just marked; one that loses its
+// counter, too, gives such a mark again.
+TEST(GeneHistory, RebootsLoseGenesThatNobodyCarried) {
+    for (const auto clock : {sim::RebootClock::kept, sim::RebootClock::lost}) {
+        sim::Settings settings = sample_settings();
+        settings.reboot.probability = 0.01;
+        settings.reboot.clock = clock;
+        settings.odneat.maturation_cycles = 5;
+        settings.energy.decay = 4.0;
+        const SampleRun run(settings);
+        const GeneHistory& history = run.recorder.genes();
+        std::set<InnovationNumber> carried;
+        for (const Snapshot& then : run.witness.snapshots) {
+            for (const neat::Genome& genome : then.genomes) carried.merge(new_marks(genome));
+        }
+        std::size_t lost = 0;
+        for (std::size_t i = history.genesis_genes(); i < history.genes().size(); ++i) {
+            const Gene& gene = history.genes()[i];
+            EXPECT_EQ(gene.was_active, carried.contains(gene.mark));
+            EXPECT_EQ(gene.was_active, !gene.builds_upon.empty());
+            lost += !gene.was_active;
+        }
+        EXPECT_GT(carried.size(), 20u);
+        EXPECT_GT(lost, 0u);
+        for (std::size_t i = 0; i < 12; ++i) {
+            std::set<InnovationNumber> active;
+            for (const GeneIndex gene : history.gene_sets()[history.active()[i]]) {
+                active.insert(history.genes()[gene].mark);
+            }
+            EXPECT_EQ(active, new_marks(run.end().genomes[i]));
+        }
+    }
+}
+
 TEST(GeneHistory, MarksGivenTwiceAreSeen) {
     const SampleRun run(sample_settings(Task::collection, Source::random_identifier));
     EXPECT_TRUE(std::ranges::any_of(run.recorder.genes().genes(),

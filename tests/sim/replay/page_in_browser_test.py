@@ -137,10 +137,10 @@ class LoadedPageTest(PageTest):
         self.assertIn("Trajectory hash", self.text("#facts"))
 
     def test_draws_arena_and_curve(self):
+        self.browser.open(f"{self.address}#colour=energy")
         arena = self.picture_of("#arena")
         self.assertGreater(self.count(arena, "#b9c0c9"), 4000)  # walls
-        floor, wall = self.count(arena, "#f5f6f8"), self.count(arena, "#b9c0c9")
-        self.assertGreater(len(arena) * len(arena[0]) - floor - wall, 30 * ROBOTS)
+        self.assertGreater(self.count(arena, "#3d86bd"), 10 * ROBOTS)  # all with half of the energy
         timeline = self.picture_of("#timeline")
         self.assertGreater(self.count(timeline, "#1b1f24"), 400)  # the curve
         self.assertGreater(self.count(timeline, "#0072b2"), 50)  # the first lineage
@@ -311,6 +311,12 @@ class OtherScreensTest(PageTest):
     def test_a_phone_has_no_need_to_scroll_sideways(self):
         self.browser.open(self.address, width=360, height=740)
         self.assertEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 360)
+        for part in (".arena", ".panel", ".time"):
+            left, right = self.browser.evaluate(
+                f"(() => {{ const r = document.querySelector('{part}').getBoundingClientRect();"
+                " return [r.left, r.right]; })()")
+            self.assertLessEqual(right, 360, part)
+            self.assertGreater(right - left, 320, part)
         self.choose(0)
         self.assertIn("Now in", self.text("#chosen"))
 
