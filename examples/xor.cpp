@@ -74,16 +74,16 @@ void evaluate(Individual& individual, const OdneatSettings& settings) {
     static constexpr std::array<std::array<float, 3>, 4> patterns{
         {{0, 0, 1}, {0, 1, 1}, {1, 0, 1}, {1, 1, 1}}};  // the third input is the bias
     static constexpr std::array<float, 4> wanted{0, 1, 1, 0};
-    const Controller newborn(individual.genome, settings.activation_slope);
-    Controller network = newborn;
+    Controller network(individual.genome, settings.activation_slope);
     const Topology& topology = *individual.genome.topology;
     const std::size_t hidden = topology.neurons.size() - topology.inputs - topology.outputs;
 
     float error = 0.0f;
     individual.is_solution = true;
     for (std::size_t i = 0; i < patterns.size(); ++i) {
-        network = newborn;
-        float output = 0.0f;  // a signal advances by one neuron an update
+        // A signal advances by one neuron an update. The network is feed-forward: after so many,
+        // nothing is left in it of the pattern before.
+        float output = 0.0f;
         for (std::size_t update = 0; update <= hidden; ++update) {
             output = network.update(patterns[i])[0];
         }

@@ -10,8 +10,11 @@ def programs(link, folder, *names):
 PROTOCOL = programs("unit", "protocol", "innovation_number", "align", "gene_clock", "admission_gate",
                     "kernel")
 NEAT = programs("unit", "neat", "agent", "comparison_sources", "crossover", "distance",
-                "durable_gene_clock_source", "gene_clock_source", "genome", "mutation", "population",
-                "random", "tabu_list", "timestamp_source")
+                "durable_gene_clock_source", "gene_clock_source", "genome", "message_codec", "mutation",
+                "population", "random", "tabu_list", "timestamp_source")
+AUTHENTICATION = programs("unit", "authentication", "sealed_frames")
+WIRE = programs("unit", "protocol", "wire")
+CODEC = programs("unit", "neat", "message_codec")
 STORAGE = programs("unit", "storage", "stored_counter", "file_store")
 POWER_CUTS = programs("explorer", "storage", "simulated_disk")
 TRACE = programs("unit", "sim/trace", "trace")
@@ -32,6 +35,10 @@ FUZZ = Step("fuzz", ("align_fuzz_replay", "canary_fuzz_replay", "clock_schedule_
 AREAS = {
     "protocol/include/gene_clocks/stored_counter.hpp": [STORAGE, POWER_CUTS],
     "protocol/storage/": [STORAGE, POWER_CUTS],
+    "protocol/authentication/": [AUTHENTICATION],
+    "protocol/include/gene_clocks/checksum.h": [WIRE],
+    "protocol/include/gene_clocks/genome_payload.h": [WIRE, CODEC],
+    "protocol/include/gene_clocks/wire.h": [WIRE, CODEC],
     "protocol/": [MUST_NOT_COMPILE, PROTOCOL, SWARMS, EXPLORER, ORACLE, FUZZ, PAPER, NEAT, OPERATORS,
                   TRACE],
     "neat/": [NEAT, OPERATORS, PAPER, FUZZ],

@@ -314,6 +314,25 @@ TEST(WireFrame, InfinityIsRefusedEvenUnderAnInfiniteLimit) {
     EXPECT_EQ(refused.fault().error, WireError::energy);
 }
 
+TEST(WireGenome, NoMoreAndNoFewerGenesAreWrittenThanAnnounced) {
+    for (const Bytes& frame : valid_frames()) {
+        const WireMessage whole = *test::decode_message(frame, vectors().limits);
+        for (const auto count :
+             {&kernel::gene_clocks_genome::neurons, &kernel::gene_clocks_genome::connections}) {
+            WireMessage message = whole;
+            if (++(message.genome.*count) <= vectors().limits.neurons) {
+                EXPECT_EQ(test::encode_message(message, vectors().limits).fault().error,
+                          WireError::gene_count);
+            }
+            message = whole;
+            if (message.genome.*count == 0) continue;
+            --(message.genome.*count);
+            EXPECT_EQ(test::encode_message(message, vectors().limits).fault().error,
+                      WireError::gene_count);
+        }
+    }
+}
+
 TEST(WireGenome, AWriterWithoutRoomTellsHowMuchIsNeeded) {
     for (const Bytes& frame_bytes : valid_frames()) {
         const auto message = test::decode_message(frame_bytes, vectors().limits);

@@ -291,6 +291,8 @@ def refused_genomes():
                  [counts(4, 2), HERE, neuron(0, "hidden", robot=7), *PERCEPTRON])
     yield genome("a counter that equals the stamp", "not_below",
                  [counts(4, 2), *PERCEPTRON, HERE, neuron(95, "hidden", robot=7)])
+    yield refused("a counter that equals the stamp, and no robot behind it", "not_below",
+                  frame([counts(4, 2), *PERCEPTRON, HERE, b"\x1c"], stamp=varint(6)))
     yield genome("a counter beyond 64 bits", "not_below",
                  [counts(4, 2), *PERCEPTRON, HERE, neuron(MAX_COUNTER - 4, "hidden", robot=7)])
     yield genome("the largest leap", "not_below",
@@ -353,6 +355,8 @@ def refused_genomes():
                         ("the next number before the negative limit", 0xC1200001)):
         yield genome(f"weight: {name}", "weight",
                      [counts(3, 2), *PERCEPTRON[:4], HERE, connection(1, 1, 2, word(value))])
+    yield genome("genes that cannot fit: the last weight is cut short", "truncated",
+                 [counts(3, 2), *PERCEPTRON[:4], CONNECTIONS[1][:-1], HERE])
     yield genome("a payload that ends within a weight", "truncated",
                  [counts(3, 2), *PERCEPTRON[:4], b"\xf3\x01\x01\x02", HERE, b"\x00\x00\x00"])
     yield refused("a payload that ends within a target", "truncated",
