@@ -50,29 +50,38 @@ std::string p_text(double p_value) {
     return p_value < 0.0005 ? fmt::format("{:.0e}", p_value) : fmt::format("{:.3f}", p_value);
 }
 
+void print_row(const Contrast& row, std::size_t width) {
+    fmt::print("  {:<{}} {:>5} {:>9} {:>8.2f}  {:<17} {:<17} {:>7} {:>6} {:>6.2f}  {}\n",
+               row.arm->name, width, row.runs, fmt::format("{}/{}", row.identical, row.pairs),
+               row.median,
+               fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", row.shift.estimate,
+                           row.shift.interval.lower, row.shift.interval.upper),
+               fmt::format("{:.2f} [{:.2f}, {:.2f}]", row.effect, row.effect_interval.lower,
+                           row.effect_interval.upper),
+               p_text(row.difference_p_corrected), p_text(row.equivalence_p_corrected),
+               row.power.equivalence, name_of(row.verdict));
+}
+
+/// Baseline by baseline, in the order in which they are first held against.
 void print_table(const std::vector<Contrast>& contrasts, const report::ContrastPlan& plan) {
     std::size_t width = 3;
-    for (const Contrast& row : contrasts) width = std::max(width, row.arm->name.size());
-    const Contrast* previous = nullptr;
+    std::vector<const report::Arm*> baselines;
     for (const Contrast& row : contrasts) {
-        if (previous == nullptr || previous->baseline != row.baseline) {
-            fmt::print("{}{} against {} (median {:.2f}, {} runs; margin {:.2f})\n",
-                       previous == nullptr ? "" : "\n", plan.measure, row.baseline->name,
-                       row.baseline_median, row.baseline_runs, row.margin);
-            fmt::print("  {:<{}} {:>5} {:>9} {:>8}  {:<17} {:<17} {:>7} {:>6} {:>6}  {}\n", "arm",
-                       width, "runs", "identical", "median", "shift [95 %]", "A [95 %]", "p diff.",
-                       "p eq.", "power", "verdict");
+        width = std::max(width, row.arm->name.size());
+        if (std::ranges::find(baselines, row.baseline) == baselines.end())
+            baselines.push_back(row.baseline);
+    }
+    for (const report::Arm* baseline : baselines) {
+        const Contrast& first = *std::ranges::find(contrasts, baseline, &Contrast::baseline);
+        fmt::print("{}{} against {} (median {:.2f}, {} runs; margin {:.2f})\n",
+                   baseline == baselines.front() ? "" : "\n", plan.measure, baseline->name,
+                   first.baseline_median, first.baseline_runs, first.margin);
+        fmt::print("  {:<{}} {:>5} {:>9} {:>8}  {:<17} {:<17} {:>7} {:>6} {:>6}  {}\n", "arm",
+                   width, "runs", "identical", "median", "shift [95 %]", "A [95 %]", "p diff.",
+                   "p eq.", "power", "verdict");
+        for (const Contrast& row : contrasts) {
+            if (row.baseline == baseline) print_row(row, width);
         }
-        fmt::print("  {:<{}} {:>5} {:>9} {:>8.2f}  {:<17} {:<17} {:>7} {:>6} {:>6.2f}  {}\n",
-                   row.arm->name, width, row.runs, fmt::format("{}/{}", row.identical, row.pairs),
-                   row.median,
-                   fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", row.shift.estimate,
-                               row.shift.interval.lower, row.shift.interval.upper),
-                   fmt::format("{:.2f} [{:.2f}, {:.2f}]", row.effect, row.effect_interval.lower,
-                               row.effect_interval.upper),
-                   p_text(row.difference_p_corrected), p_text(row.equivalence_p_corrected),
-                   row.power.equivalence, name_of(row.verdict));
-        previous = &row;
     }
 }
 
