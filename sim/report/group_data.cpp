@@ -6,6 +6,7 @@
 
 #include "choice_names.hpp"
 #include "contrast.hpp"
+#include "statistics/quantiles.hpp"
 #include "study_design.hpp"
 
 namespace gene_clocks::report {
@@ -68,8 +69,13 @@ Json contrast_json(const Contrast& contrast) {
             {"verdict", name_of(contrast.verdict)}};
 }
 
-Json contrasts_json(const Group& group, const std::vector<Pairing>& pairings,
-                    const ContrastPlan& plan) {
+/// The margin is a share of the baseline's median, so that none of zero makes one.
+bool has_margin(const Pairing& pairing, const ContrastPlan& plan) {
+    return statistics::median(pairing.baseline->numbers->values.at(plan.measure)) != 0.0;
+}
+
+Json contrasts_json(const Group& group, std::vector<Pairing> pairings, const ContrastPlan& plan) {
+    std::erase_if(pairings, [&](const Pairing& pairing) { return !has_margin(pairing, plan); });
     std::vector<ContrastPair> pairs;
     for (const auto& [arm, baseline] : pairings) pairs.push_back({arm->numbers, baseline->numbers});
     const std::vector<Contrast> contrasts = contrast_pairs(pairs, plan);

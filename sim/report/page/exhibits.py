@@ -84,6 +84,12 @@ def _paper_comparisons(data, groups):
             yield comparison
 
 
+def is_paper(groups):
+    """Whether a study is of nothing but the paper's markings, so that its exhibits come first."""
+    return all(not group.factors and arm.source in wording.PAPER_SOURCES
+               for group in groups for arm in group.arms)
+
+
 def _plain(part, task):
     """A comparison's numbers, of the paper's two markings alone."""
     plain = part.comparisons[task].plain()

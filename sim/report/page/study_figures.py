@@ -1,6 +1,5 @@
 """Draws what every study has: swarm fitness over time, and f_c with the verdicts of the contrasts."""
 
-import textwrap
 from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
@@ -17,6 +16,7 @@ from study_groups import percent
 
 ROWS_OF_A_FIGURE = 48
 PANELS_AT_MOST = 48  # more are no longer legible
+OWN_ARM = "the arm in the panel's title"
 POINTS_AT_MOST = 32  # more runs than this are shown by box and outliers alone
 
 
@@ -55,7 +55,7 @@ def curves(group, folder):
 
 def boxes(group, folder):
     """f_c of every arm, in as many figures as it takes."""
-    rows = _rows(group)
+    rows = arm_rows(group)
     parts = [rows[i:i + ROWS_OF_A_FIGURE] for i in range(0, len(rows), ROWS_OF_A_FIGURE)]
     few = all(arm.numbers["runs"] <= POINTS_AT_MOST for arm in group.arms)
     caption = ("Boxes: quartiles and median; whiskers: the farthest run within 1.5 times the box; "
@@ -102,15 +102,26 @@ def _panels(group):
         return list(conditions.items())
     panels = []
     for position in everything:
-        baseline = group.baseline_of.get(position)
-        if baseline is not None:
-            panels.append((group.arms[position].label, [baseline, position]))
-        elif not group.is_baseline(position):
+        contrast = shown_contrast(group, position)
+        if contrast is None:
             panels.append((group.arms[position].label, [position]))
+        elif contrast != "baseline":
+            panels.append((group.arms[position].label, [contrast["baseline"], position]))
     treatments = {group.arms[members[-1]].treatment for _, members in panels}
     if len(treatments) == 1 and len(conditions) > 1:
         panels = [(group.arms[members[-1]].condition, members) for _, members in panels]
     return panels
+
+
+def wrap(label, characters):
+    """A label of parts with commas, in lines of so many characters where the parts let it."""
+    lines = []
+    for part in label.split(", "):
+        if lines and len(lines[-1]) + len(part) + 2 <= characters:
+            lines[-1] += f", {part}"
+        else:
+            lines.append(part)
+    return figures.literal(",\n".join(lines))
 
 
 @dataclass(frozen=True)
@@ -134,7 +145,7 @@ def _grid_of(count):
 def _draw_panels(group, panels, title):
     grid = _grid_of(len(panels))
     rows = -(-len(panels) // grid.columns)
-    headings = [textwrap.fill(figures.literal(heading), grid.heading_characters) for heading, _ in panels]
+    headings = [wrap(heading, grid.heading_characters) for heading, _ in panels]
     lines = max(heading.count("\n") for heading in headings)
     figure, places = plt.subplots(
         rows, grid.columns, sharex=True, sharey=True, squeeze=False,
@@ -153,6 +164,8 @@ def _draw_panels(group, panels, title):
         axes.remove()
     figure.supxlabel("Control cycle", fontsize=9)
     figure.supylabel("Swarm fitness $F_s$ (energy)", fontsize=9)
+    if OWN_ARM in looks:
+        looks[OWN_ARM] = palette.ANY
     handles = [Line2D([], [], color=look.colour, linestyle=look.line, label=figures.literal(label))
                for label, look in looks.items() if label]
     figures.draw_head(figure, handles + [figures.middle_half_handle()], title,
@@ -166,7 +179,7 @@ def _looks(group, panels, members):
     if len(panels) == 1:
         looks = [arm.look if arm.treatment else palette.OTHERS[i] for i, arm in enumerate(arms)]
         return zip([arm.label or arm.name for arm in arms], looks, arms)
-    if len(arms) > 1 and len({arm.condition for arm in arms}) == 1 and len(group.conditions) > 1:
+    if panels == list(group.conditions.items()):
         return zip([arm.treatment for arm in arms], [arm.look for arm in arms], arms)
     own = arms[-1]
     look = own.look if own.look != palette.BASELINE else palette.HIGHLIGHT
@@ -174,11 +187,11 @@ def _looks(group, panels, members):
         return [("", look, own)]
     baselines = {held[0] for _, held in panels if len(held) == 2}
     label = arms[0].label if len(baselines) == 1 else "what it is held against"
-    return [(label, palette.BASELINE, arms[0]), ("the arm in the panel's title", look, own)]
+    return [(label, palette.BASELINE, arms[0]), (OWN_ARM, look, own)]
 
 
-def _rows(group):
-    """The rows of the box plots: positions of arms, and a heading above those of one condition."""
+def arm_rows(group):
+    """The rows of a figure: positions of arms, and a heading above those of one condition."""
     conditions = group.conditions
     if len(conditions) == 1 or all(len(members) == 1 for members in conditions.values()):
         return list(range(len(group.arms)))
@@ -190,29 +203,35 @@ def _rows(group):
 
 def _draw_rows(group, rows, title, few):
     figure, axes = plt.subplots(figsize=(figures.WIDTH_INCHES, 0.23 * len(rows) + 1.15))
-    has_headings = any(isinstance(row, str) for row in rows)
-    labels = []
     for place, row in enumerate(rows):
-        if isinstance(row, str):
-            labels.append(row)
-            continue
-        arm = group.arms[row]
-        labels.append((arm.treatment if has_headings else arm.label) or arm.name)
-        _draw_row(axes, group, row, place, few)
-    axes.set_yticks(range(len(rows)), map(figures.literal, labels))
-    for row, label in zip(rows, axes.get_yticklabels()):
-        if isinstance(row, str):
-            label.set_fontweight("bold")
-    axes.set_ylim(len(rows) - 0.4, -0.6)
-    axes.tick_params(axis="y", length=0)
-    axes.spines["left"].set_visible(False)
-    axes.grid(axis="y", visible=False)
-    axes.grid(axis="x", visible=True)
+        if not isinstance(row, str):
+            _draw_row(axes, group, row, place, few)
+    label_rows(axes, group, rows)
     axes.set_xlabel("$f_c$ (energy)")
     handles = [Line2D([], [], color=figures.MUTED, linewidth=1.2, label="median held against"),
                Patch(facecolor=figures.MUTED, alpha=0.25, label="margin of equivalence")]
     figures.draw_head(figure, handles if group.contrast_of else [], title)
     return figure
+
+
+def label_rows(axes, group, rows):
+    """Names the rows of a figure, the first one at the top, with headings in bold."""
+    has_headings = any(isinstance(row, str) for row in rows)
+    labels = []
+    for row in rows:
+        if not isinstance(row, str):
+            arm = group.arms[row]
+            row = (arm.treatment if has_headings else arm.label) or arm.name
+        labels.append(figures.literal(row))
+    axes.set_yticks(range(len(rows)), labels)
+    for row, label in zip(rows, axes.get_yticklabels()):
+        if isinstance(row, str):
+            label.set_fontweight("bold")
+    axes.set_ylim(len(rows) - 0.4, -0.6)
+    axes.tick_params(axis="y", length=0, pad=6)
+    axes.spines["left"].set_visible(False)
+    axes.grid(axis="y", visible=False)
+    axes.grid(axis="x", visible=True)
 
 
 def _draw_row(axes, group, position, place, few):

@@ -1,5 +1,7 @@
 """The words and number formats of figures and page."""
 
+from markupsafe import escape
+
 SOURCES = {
     "gene-clock": "Gene Clocks",
     "gene-clock-no-merge": "Gene Clocks, no merge",
@@ -18,6 +20,26 @@ ROLES = {"as-run": "As run", "as-printed": "As printed"}
 
 VERDICTS = {"equivalent": "equivalent", "small": "small difference", "different": "different",
             "undecided": "undecided"}
+
+# Of the measures of chronology: its symbol in HTML, what it is, and the decimals to show.
+CHRONOLOGY = {
+    "concurrent": ("concurrent", "share of pairs of genes of which neither can have caused the other", 3),
+    "cause_inverted": ("against cause", "share of the other pairs that the marks sort the wrong way", 4),
+    "time_inverted": ("against time", "share of pairs that the marks sort against their creation", 4),
+    "genome_inverted": ("in a genome", "the same among the connections of one genome", 4),
+    "same_collisions": ("same", "share of genes with a mark that the same innovation has", 4),
+    "different_collisions": ("another", "share of genes with a mark that another innovation has", 4),
+    "matching": ("matching", "matching connections in an alignment", 2),
+    "disjoint": ("disjoint", "disjoint connections in an alignment", 3),
+    "excess": ("excess", "excess connections in an alignment", 3),
+    "missed_homologies": ("missed", "unmatched pairs of one innovation in an alignment", 4),
+    "false_homologies": ("false", "matching pairs of two innovations in an alignment", 4),
+    "crossovers": ("crossovers", "share of births with two different parents", 4),
+    "crossovers_repeated": ("repeated", "share of these whose child has an innovation twice", 4),
+    "message_bytes": ("bytes", "bytes of a message", 1),
+    "stamp_bytes": ("of the clock", "bytes of the clock in a message", 2),
+    "stamp_largest": ("largest stamp", "largest counter at the end", 0),
+}
 
 # By measure: its symbol in HTML, what it is, its unit, and the decimals to show.
 MEASURES = {
@@ -51,6 +73,25 @@ def quantity(value):
     if float(value).is_integer() and abs(value) < 1e15:
         return number(value, 0)
     return minus(f"{value:g}") if float(f"{value:g}") == value else minus(repr(value))
+
+
+def signed(value, decimals):
+    text = number(value, decimals)
+    return text if text.startswith("\u2212") or not text.strip("0.") else f"+{text}"
+
+
+def significant(value):
+    """A measured value to three digits, as in '1 230', '12.0', '0.0123' or '0'."""
+    if value == 0:
+        return "0"
+    if abs(value) >= 100:
+        return number(value, 0)
+    return minus(f"{value:#.3g}") if abs(value) >= 0.001 else "< 0.001"
+
+
+def escaped(text):
+    """A text as HTML."""
+    return str(escape(text))
 
 
 def p_value(value):

@@ -12,11 +12,13 @@ from pathlib import Path
 
 import jinja2
 
+import chronology_figures
 import exhibits
 import figures
 import report_data
 import study_figures
 import study_groups
+import sweep_figures
 import wording
 
 EXIT_BAD_INPUT = 2
@@ -30,11 +32,14 @@ class GroupFigures:
     """The figures of a group, by what they are about."""
 
     fitness: list
+    chronology: list
 
 
 def draw_group(group, folder):
-    return GroupFigures([figure for figure in (study_figures.curves(group, folder),
-                                               *study_figures.boxes(group, folder)) if figure])
+    curves = study_figures.curves(group, folder)
+    fitness = [curves] if curves is not None else []
+    fitness += [*study_figures.boxes(group, folder), *sweep_figures.fitness(group, folder)]
+    return GroupFigures(fitness, list(chronology_figures.figures_of(group, folder)))
 
 
 def page(data, parts, groups, drawn):
@@ -49,7 +54,8 @@ def page(data, parts, groups, drawn):
         shown_measures=SHOWN_MEASURES,
         style=(here / "page.css").read_text(encoding="utf-8"))
     return environment.get_template("page.html.jinja").render(
-        data=data, parts=parts, all_groups=groups, figures=drawn)
+        data=data, parts=parts, all_groups=groups, figures=drawn,
+        is_paper=exhibits.is_paper(groups))
 
 
 def write(data_path, folder):

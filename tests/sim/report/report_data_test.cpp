@@ -84,6 +84,60 @@ TEST(ReportData, MeasuresThatTheRunsAreTooShortForAreNull) {
     EXPECT_TRUE(data["comparisons"][0]["trajectories"].is_null());
 }
 
+TEST(ReportData, GroupsReferToArmsAndHoldTheirContrasts) {
+    const Input input = sample_study("loss");
+    const Json data = report_data(input);
+    const Json& group = data["groups"].at(0);
+    EXPECT_EQ(group["baseline_source"], "gene-clock");
+    EXPECT_EQ(group["factors"].at(0)["key"], "radio.loss");
+    EXPECT_EQ(group["factors"].at(0)["levels"], Json::parse("[[0.0], [0.5], [0.99]]"));
+    ASSERT_EQ(group["arms"].size(), input.arms.size());
+    for (const Json& arm : group["arms"]) {
+        const Json& numbers = data["comparisons"][arm["comparison"].get<std::size_t>()]["arms"]
+                                  [arm["arm"].get<std::size_t>()];
+        EXPECT_EQ(arm["name"], numbers["name"]);
+    }
+    EXPECT_EQ(group["treatment_contrasts"].size(), 6U);
+    EXPECT_EQ(group["condition_contrasts"].size(), 6U);
+    const Json& row = group["treatment_contrasts"].at(0);
+    EXPECT_EQ(group["arms"][row["arm"].get<std::size_t>()]["name"],
+              "navigation-gene-clock-no-merge-radio.loss=0");
+    EXPECT_EQ(group["arms"][row["baseline"].get<std::size_t>()]["name"],
+              "navigation-gene-clock-radio.loss=0");
+    EXPECT_EQ(row["identical"], 3);
+    EXPECT_EQ(row["shift"], 0.0);
+    EXPECT_EQ(row["verdict"], "undecided");  // three runs show nothing
+}
+
+TEST(ReportData, AMedianOfZeroMakesNoContrast) {
+    Input input = sample_study("markings");
+    for (report::Run& run : input.arms[0].runs)
+        for (sim::Sample& sample : run.result.samples) sample.swarm_fitness = 0.0;
+    const Json data = report_data(input);
+    EXPECT_EQ(data["groups"][0]["treatment_contrasts"], Json::array());
+    EXPECT_EQ(data["groups"][1]["treatment_contrasts"].size(), 8U);
+}
+
+TEST(ReportData, ChronologyIsPerOpportunity) {
+    Input input = sample_study("single");
+    for (report::Run& run : input.arms[0].runs) {
+        sim::ChronologyMeasures& chronology = run.result.chronology;
+        chronology = {};
+        chronology.caused_pairs = 400;
+        chronology.cause_inverted = 10 * run.seed;
+        chronology.pairs = 1000;
+        chronology.alignments = run.seed == 1 ? 0 : 50;
+        chronology.missed_homologies = run.seed == 1 ? 0 : 10 * run.seed;
+    }
+    const Json shares = report_data(input)["comparisons"][0]["arms"][0]["chronology"];
+    EXPECT_EQ(shares["cause_inverted"]["median"], 20.0 / 400.0);
+    EXPECT_EQ(shares["cause_inverted"]["count"], 3);
+    EXPECT_EQ(shares["concurrent"]["median"], 0.6);
+    EXPECT_EQ(shares["missed_homologies"]["count"], 2);  // one run had no alignments
+    EXPECT_EQ(shares["missed_homologies"]["median"], 0.5);
+    EXPECT_TRUE(shares["same_collisions"].is_null());
+}
+
 TEST(ReportData, TheSameRunsInAnotherOrderGiveTheSameNumbers) {
     Input input = sample_input();
     const std::string once = report_data(input).dump();

@@ -43,6 +43,17 @@ inline Run sample_run(const sim::Settings& settings, double level, std::uint64_t
         static_cast<std::uint64_t>(settings.world.robots * settings.run.cycles);
     run.result.cpu_seconds = 0.5;
     run.result.counters.births = 1000 + seed;
+    run.result.counters.messages_sent = 1000;
+    sim::ChronologyMeasures& chronology = run.result.chronology;
+    chronology.genes = 100;
+    chronology.pairs = 4950;
+    chronology.caused_pairs = 2000;
+    chronology.timed_pairs = 4900;
+    chronology.time_inverted = 50 * seed;
+    chronology.alignments = 400;
+    chronology.missed_homologies = 3 * seed;
+    chronology.bytes_sent = 90000;
+    chronology.stamp_bytes = 1500 + seed;
     const double initial_size = settings.task == sim::Task::navigation ? 32.0 : 56.0;
     for (std::int64_t cycle = 0; cycle < settings.run.cycles;
          cycle += settings.run.sample_period_cycles) {
