@@ -146,6 +146,8 @@ TEST(AdmissionGate, NoticesStorageThatWasSetBack) {
     AdmissionGate gate;
     EXPECT_EQ(gate.admit(restored, Stamp{29}, genome_of_another), Admission::identity_conflict);
     EXPECT_EQ(gate.conflicting_mark(), lost[4]);
+    EXPECT_EQ(gate.admit(restored, Stamp{29}, Genes{lost[3]}), Admission::identity_conflict);
+    EXPECT_EQ(gate.conflicting_mark(), lost[4]) << "the first is kept";
 }
 
 // With any forward range and projection, as observe().
