@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <set>
 #include <system_error>
 
 #include "commands.hpp"
@@ -18,7 +17,6 @@
 namespace gene_clocks::app {
 namespace {
 
-using experiment::RunKey;
 using experiment::Store;
 using experiment::Study;
 using experiment::Task;
@@ -26,21 +24,6 @@ using experiment::Task;
 std::string utc_now() {
     const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
-}
-
-/// Every run of the study once: two arms with the same settings share their runs.
-std::vector<Task> all_tasks(const Study& study) {
-    std::vector<Task> tasks;
-    std::set<RunKey> planned;
-    for (std::uint64_t seed = study.first_seed;
-         seed < study.first_seed + static_cast<std::uint64_t>(study.seeds); ++seed) {
-        for (const experiment::Arm& arm : study.arms) {
-            if (!planned.emplace(arm.settings_hash, seed).second) continue;
-            tasks.push_back({&arm.settings, &arm.arena, seed, arm.settings_hash,
-                             fmt::format("arm {}, seed {}", arm.name, seed)});
-        }
-    }
-    return tasks;
 }
 
 void say_what_is_there(const Store& store, const std::filesystem::path& file, std::size_t all,
@@ -75,14 +58,15 @@ void make_folder_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-int conduct(const Study& study, const std::filesystem::path& file, std::int64_t threads) {
+int conduct(const Study& study, const std::filesystem::path& file, std::int64_t threads,
+            const experiment::Shard& shard) {
     experiment::rehearse(study);
     const auto& stop = watch_stop_signals();
     make_folder_of(file);
     Store store = Store::open_for_writing(file);
     store.put_study(study);
 
-    std::vector<Task> tasks = all_tasks(study);
+    std::vector<Task> tasks = experiment::plan_runs(study, shard);
     const std::size_t all = tasks.size();
     const auto finished = store.finished();
     std::erase_if(tasks, [&](const Task& task) {

@@ -1,16 +1,14 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 
-#include "choice_names.hpp"
 #include "commands.hpp"
 #include "conduct.hpp"
 #include "document.hpp"
-#include "selection_options.hpp"
+#include "dry_run.hpp"
+#include "run_plan.hpp"
 #include "study.hpp"
 #include "study_options.hpp"
-#include "suggestion.hpp"
 
 namespace gene_clocks::app {
 namespace {
@@ -21,25 +19,9 @@ struct Options {
     std::string study;
     std::string store;
     StudyCommandOptions common;
+    std::string shard = "1/1";
     bool dry_run = false;
 };
-
-void print_plan(const Study& study) {
-    double steps = 0.0;
-    fmt::print("{}: {}\n{}\n", study.name, study.title, study.description);
-    for (const experiment::Arm& arm : study.arms) {
-        const sim::Settings& settings = arm.settings;
-        fmt::print(
-            "  {:<28} {}, {}, profile {}, parameters {}: {} robots, {} cycles; settings {}\n",
-            arm.name, experiment::name_of(settings.task), experiment::name_of(settings.source),
-            arm.profile, arm.parameters.empty() ? "none" : arm.parameters, settings.world.robots,
-            settings.run.cycles, arm.settings_hash);
-        steps += static_cast<double>(settings.world.robots) *
-                 static_cast<double>(settings.run.cycles) * static_cast<double>(study.seeds);
-    }
-    fmt::print("{} arms x {} seeds = {} runs, {:.1f} M robot-steps\n", study.arms.size(),
-               study.seeds, study.arms.size() * static_cast<std::size_t>(study.seeds), steps / 1e6);
-}
 
 /// The built-in studies with their titles, for the help.
 std::string builtin_studies() {
@@ -54,12 +36,10 @@ std::string builtin_studies() {
 int run(const Options& options) {
     const auto document = experiment::find_document(experiment::Builtin::study, options.study);
     const Study study = experiment::read_study(document, options.common.study_options());
-    if (options.dry_run) {
-        experiment::rehearse(study);
-        print_plan(study);
-        return success;
-    }
-    return conduct(study, store_file(options.store, study), options.common.threads);
+    const experiment::Shard shard = experiment::parse_shard(options.shard);
+    const auto store = store_file(options.store, study, shard);
+    if (options.dry_run) return dry_run(study, store, options.common.threads, shard);
+    return conduct(study, store, options.common.threads, shard);
 }
 
 }  // namespace
@@ -76,11 +56,19 @@ void add_study_command(CLI::App& app, int& status) {
         ->type_name("NAME");
     command
         ->add_option("--store", options->store,
-                     "SQLite file for the results; without it results/STUDY.sqlite")
+                     "SQLite file for the results; without it results/STUDY.sqlite, or "
+                     "results/STUDY-shard-I-of-N.sqlite")
         ->type_name("FILE");
     options->common.add_to(*command);
+    command
+        ->add_option(
+            "--shard", options->shard,
+            "Only the I-th of N equal parts of the runs, as in 2/4; `gene-clocks merge` puts "
+            "their stores together")
+        ->type_name("I/N");
     command->add_flag("--dry-run", options->dry_run,
-                      "Only check the study and show its arms and runs");
+                      "Only check the study and show its arms and runs, how many of them are still "
+                      "missing, and how long they may take on this machine");
     command->footer(
         builtin_studies() +
         "\nA study that was stopped, by Ctrl-C or a power cut, goes on where it was when the same "
@@ -89,7 +77,8 @@ void add_study_command(CLI::App& app, int& status) {
         "Examples:\n"
         "  gene-clocks study gecco15 --quick\n"
         "  gene-clocks study gecco15 --dry-run\n"
-        "  gene-clocks study my-study.toml --store my-results.sqlite --threads 4\n");
+        "  gene-clocks study my-study.toml --store my-results.sqlite --threads 4\n"
+        "  gene-clocks study my-study.toml --shard 2/4\n");
     command->callback([options, &status] { status = run(*options); });
 }
 

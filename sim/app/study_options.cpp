@@ -1,5 +1,7 @@
 #include "study_options.hpp"
 
+#include <fmt/format.h>
+
 #include "selection_options.hpp"
 
 namespace gene_clocks::app {
@@ -25,9 +27,12 @@ experiment::StudyOptions StudyCommandOptions::study_options() const {
     return options;
 }
 
-std::filesystem::path store_file(const std::string& named, const experiment::Study& study) {
+std::filesystem::path store_file(const std::string& named, const experiment::Study& study,
+                                 const experiment::Shard& shard) {
     if (!named.empty()) return named;
-    return std::filesystem::path(results_folder) / (study.name + ".sqlite");
+    const std::string part =
+        shard.is_all() ? "" : fmt::format("-shard-{}-of-{}", shard.index, shard.count);
+    return std::filesystem::path(results_folder) / (study.name + part + ".sqlite");
 }
 
 }  // namespace gene_clocks::app

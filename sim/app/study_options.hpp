@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "run_plan.hpp"
 #include "study.hpp"
 
 namespace gene_clocks::app {
@@ -26,7 +27,9 @@ struct StudyCommandOptions {
 /// The folder for results where the user names none.
 inline constexpr const char* results_folder = "results";
 
-/// The store that the user named, else one named after the study, in the results folder.
-std::filesystem::path store_file(const std::string& named, const experiment::Study& study);
+/// The store that the user named, else one named after the study, and the shard if it is one of
+/// several, in the results folder.
+std::filesystem::path store_file(const std::string& named, const experiment::Study& study,
+                                 const experiment::Shard& shard = {});
 
 }  // namespace gene_clocks::app

@@ -238,14 +238,42 @@ void Store::put_run(const RunRecord& record) {
     transaction.commit();
 }
 
+std::map<std::string, std::string> Store::current_hashes() const {
+    std::map<std::string, std::string> hashes;
+    SQLite::Statement rows(*database_, "SELECT hash, canonical FROM settings");
+    while (rows.executeStep()) {
+        const auto [text, added] =
+            with_new_keys(rows.getColumn(1).getString(), {database_->getFilename()});
+        const std::string hash = rows.getColumn(0).getString();
+        hashes[hash] = added.empty() ? hash : hash_of(text);
+    }
+    return hashes;
+}
+
 std::set<RunKey> Store::finished() const {
+    const auto hashes = current_hashes();
     std::set<RunKey> keys;
     SQLite::Statement rows(*database_, "SELECT settings_hash, seed FROM run");
     while (rows.executeStep()) {
-        keys.emplace(rows.getColumn(0).getString(),
+        keys.emplace(hashes.at(rows.getColumn(0).getString()),
                      static_cast<std::uint64_t>(rows.getColumn(1).getInt64()));
     }
     return keys;
+}
+
+std::map<std::string, RecordedTime> Store::recorded_times() const {
+    const auto hashes = current_hashes();
+    std::map<std::string, RecordedTime> times;
+    SQLite::Statement rows(*database_,
+                           "SELECT settings_hash, COUNT(*), SUM(robot_steps), SUM(wall_seconds) "
+                           "FROM run GROUP BY settings_hash");
+    while (rows.executeStep()) {
+        times[hashes.at(rows.getColumn(0).getString())] = {
+            static_cast<std::size_t>(rows.getColumn(1).getInt64()),
+            static_cast<std::uint64_t>(rows.getColumn(2).getInt64()),
+            rows.getColumn(3).getDouble()};
+    }
+    return times;
 }
 
 std::vector<StoredStudy> Store::studies() const {

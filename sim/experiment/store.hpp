@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -29,6 +30,13 @@ struct RunRecord {
     double wall_seconds{};
     std::string finished_at;      ///< UTC, ISO 8601
     std::string program_version;  ///< of the program that made the run
+};
+
+/// How long runs took, all together.
+struct RecordedTime {
+    std::size_t runs{};
+    std::uint64_t robot_steps{};
+    double wall_seconds{};
 };
 
 /// An arm of a stored study. Its runs are those with its settings and the study's seeds.
@@ -76,8 +84,12 @@ public:
     /// Enters a finished run. The settings must be those of an arm of a study that was put.
     void put_run(const RunRecord& record);
 
-    /// All runs that the store holds.
+    /// All runs that the store holds. The hashes are those that the settings have today, also where
+    /// a store that is open for reading was written before some settings were introduced.
     [[nodiscard]] std::set<RunKey> finished() const;
+
+    /// How long the runs took, by the hash of their settings, as in finished().
+    [[nodiscard]] std::map<std::string, RecordedTime> recorded_times() const;
 
     /// All studies, by name.
     [[nodiscard]] std::vector<StoredStudy> studies() const;
@@ -99,6 +111,7 @@ public:
 private:
     explicit Store(std::unique_ptr<SQLite::Database> database);
     void take_over_new_keys();
+    [[nodiscard]] std::map<std::string, std::string> current_hashes() const;
 
     std::unique_ptr<SQLite::Database> database_;
     std::vector<std::string> new_keys_;

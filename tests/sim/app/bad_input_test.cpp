@@ -148,6 +148,15 @@ TEST_F(BadInputTest, Studies) {
     expect_refusal(with(head + arm + "settings = { world.arena = \"full.toml\" }\n"), "arm a: ");
 }
 
+TEST_F(BadInputTest, Shards) {
+    for (const char* shard : {"0/4", "5/4", "a/b", "", "3", "1/0", "-1/4", "1/4/4"}) {
+        for (const char* dry_run : {"--dry-run", "--quick"}) {
+            expect_refusal({"study", "gecco15", "--quick", "--shard", shard, dry_run}, "--shard: ");
+        }
+    }
+    expect_refusal({"study", "gecco15", "--shard"}, "--shard");
+}
+
 TEST_F(BadInputTest, Stores) {
     const auto study = [](const std::string& store) {
         return Program::Arguments{"study", "gecco15", "--quick", "--store", store};
@@ -155,6 +164,8 @@ TEST_F(BadInputTest, Stores) {
     folder.write("text.sqlite", "seed,f_c\n" + std::string(500, '1'));
     expect_refusal(study("text.sqlite"), "text.sqlite: is not a store of runs");
     expect_refusal({"export", "text.sqlite", "--runs", "runs.csv"},
+                   "text.sqlite: is not a store of runs");
+    expect_refusal({"study", "gecco15", "--store", "text.sqlite", "--dry-run"},
                    "text.sqlite: is not a store of runs");
     expect_refusal(study("."), "is a folder");
     expect_refusal(study("text.sqlite/runs.sqlite"), "the folder text.sqlite cannot be made");

@@ -186,6 +186,19 @@ TEST_F(StoreTest, CountsRunsOfOtherVersions) {
     EXPECT_EQ(store.runs_of_other_versions(), 1);
 }
 
+TEST_F(StoreTest, AddsUpTheTimesOfRuns) {
+    Store store = Store::open_for_writing(file);
+    store.put_study(study);
+    store.put_run(example_run(study.arms[0], 3));
+    store.put_run(example_run(study.arms[0], 4));
+    const auto times = store.recorded_times();
+    ASSERT_EQ(times.size(), 1U);
+    const RecordedTime& time = times.at(study.arms[0].settings_hash);
+    EXPECT_EQ(time.runs, 2U);
+    EXPECT_EQ(time.robot_steps, 246U);
+    EXPECT_DOUBLE_EQ(time.wall_seconds, 1.0);
+}
+
 TEST_F(StoreTest, RefusesAFileThatIsNoDatabase) {
     folder.write("runs.sqlite", "seed,f_c\n1,160\n" + std::string(1000, 'x'));
     expect_refusal("is not a store of runs (it is no SQLite file)");
@@ -267,7 +280,13 @@ TEST_F(StoreTest, TakesOverRunsFromBeforeTheSettingsWereExtended) {
         "UPDATE arm SET settings = json_remove(settings, '$.radio.loss');"
         "PRAGMA foreign_keys = ON;"
         "UPDATE settings SET hash = 'old' || substr(hash, 4)");
-    EXPECT_EQ(Store::open_for_reading(file).study("").arms[0].settings.radio.loss, 0.0);
+    {
+        const Store reader = Store::open_for_reading(file);
+        EXPECT_EQ(reader.study("").arms[0].settings.radio.loss, 0.0);
+        const RunKey key{study.arms[0].settings_hash, 3};
+        EXPECT_THAT(reader.finished(), testing::ElementsAre(key));
+        EXPECT_EQ(reader.recorded_times().at(key.first).runs, 1U);
+    }
     {
         const Store store = Store::open_for_writing(file);
         EXPECT_THAT(store.new_keys(), testing::ElementsAre("radio.loss"));

@@ -1,0 +1,123 @@
+#include "dry_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "choice_names.hpp"
+#include "commands.hpp"
+#include "progress.hpp"
+#include "run_estimate.hpp"
+#include "store.hpp"
+#include "suggestion.hpp"
+
+namespace gene_clocks::app {
+namespace {
+
+using experiment::KindSpeed;
+using experiment::RunKind;
+using experiment::Store;
+using experiment::Study;
+using experiment::Task;
+
+std::string steps_text(const std::vector<Task>& tasks) {
+    double steps = 0.0;
+    for (const Task& task : tasks) steps += static_cast<double>(task.robot_steps());
+    return fmt::format("{:.1f} M robot-steps", steps / 1e6);
+}
+
+void print_arms(const Study& study) {
+    std::size_t width = 0;
+    for (const experiment::Arm& arm : study.arms) width = std::max(width, arm.name.size());
+    fmt::print("{}: {}\n{}\n", study.name, study.title, study.description);
+    for (const experiment::Arm& arm : study.arms) {
+        const sim::Settings& settings = arm.settings;
+        fmt::print(
+            "  {:<{}}  {}, {}, profile {}, parameters {}: {} robots, {} cycles; settings {}\n",
+            arm.name, width, experiment::name_of(settings.task),
+            experiment::name_of(settings.source), arm.profile,
+            arm.parameters.empty() ? "none" : arm.parameters, settings.world.robots,
+            settings.run.cycles, arm.settings_hash);
+    }
+}
+
+void print_runs(const Study& study, const std::vector<Task>& all) {
+    const std::size_t runs = study.arms.size() * static_cast<std::size_t>(study.seeds);
+    fmt::print("{} arms x {} seeds = {} runs", study.arms.size(), study.seeds, runs);
+    if (all.size() != runs) fmt::print(", {} of them different", all.size());
+    fmt::print(", {}\n", steps_text(all));
+}
+
+/// Tries out each kind of run of which no speed is known, some seconds long in all. Returns how
+/// many there were.
+std::size_t add_missing_speeds(const std::vector<Task>& tasks, std::int64_t threads,
+                               std::map<RunKind, KindSpeed>& speeds) {
+    std::map<RunKind, const Task*> missing;
+    for (const Task& task : tasks) {
+        const RunKind kind(*task.settings);
+        if (!speeds.contains(kind)) missing.emplace(kind, &task);
+    }
+    constexpr std::chrono::milliseconds most{400};
+    constexpr std::chrono::milliseconds altogether{10'000};
+    for (const auto& [kind, task] : missing) {
+        const auto share = altogether / static_cast<std::int64_t>(missing.size());
+        speeds[kind] = experiment::try_out(*task, threads, std::min(most, share));
+    }
+    return missing.size();
+}
+
+void print_time(const Study& study, const std::vector<Task>& missing, const Store* store,
+                std::int64_t threads) {
+    std::map<RunKind, KindSpeed> speeds;
+    if (store != nullptr) {
+        speeds = experiment::recorded_speeds(study, store->recorded_times(), threads);
+    }
+    std::size_t runs = 0;
+    for (const auto& [kind, speed] : speeds) runs += speed.runs;
+    const std::size_t tried = add_missing_speeds(missing, threads, speeds);
+    std::vector<std::string> grounds;
+    if (runs > 0) grounds.push_back(fmt::format("the {} runs that are there", runs));
+    if (tried > 0) grounds.emplace_back("trying out the beginning of some runs");
+    const auto time = experiment::estimated_time(missing, speeds, threads);
+    const std::int64_t count = experiment::thread_count(threads);
+    fmt::print("about {} on this machine with {} thread{}, judged by {}\n",
+               experiment::duration_text(time), count, count == 1 ? "" : "s",
+               experiment::list_of(grounds));
+}
+
+}  // namespace
+
+int dry_run(const Study& study, const std::filesystem::path& file, std::int64_t threads,
+            const experiment::Shard& shard) {
+    std::optional<Store> store;
+    if (std::filesystem::exists(file)) store = Store::open_for_reading(file);
+    experiment::rehearse(study);
+    print_arms(study);
+    print_runs(study, experiment::plan_runs(study));
+
+    std::vector<Task> tasks = experiment::plan_runs(study, shard);
+    if (!shard.is_all()) {
+        fmt::print("shard {} of {}: {} runs, {}\n", shard.index, shard.count, tasks.size(),
+                   steps_text(tasks));
+    }
+    const std::size_t all = tasks.size();
+    if (store) {
+        const auto finished = store->finished();
+        std::erase_if(tasks, [&](const Task& task) {
+            return finished.contains({task.settings_hash, task.seed});
+        });
+        fmt::print("{}: {} of {} runs are there already, {} are missing, {}\n", file.string(),
+                   all - tasks.size(), all, tasks.size(), steps_text(tasks));
+    } else {
+        fmt::print("{}: is yet to be made\n", file.string());
+    }
+    if (!tasks.empty()) print_time(study, tasks, store ? &*store : nullptr, threads);
+    return success;
+}
+
+}  // namespace gene_clocks::app
