@@ -22,6 +22,7 @@ void add_reproduce_command(CLI::App& app, int& status);
 void add_settings_command(CLI::App& app, int& status);
 void add_contrast_command(CLI::App& app, int& status);
 void add_export_command(CLI::App& app, int& status);
+void add_merge_command(CLI::App& app, int& status);
 void add_check_trace_command(CLI::App& app, int& status);
 
 }  // namespace gene_clocks::app

@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
     app::add_settings_command(application, status);
     app::add_contrast_command(application, status);
     app::add_export_command(application, status);
+    app::add_merge_command(application, status);
     app::add_check_trace_command(application, status);
 
     try {

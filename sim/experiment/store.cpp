@@ -28,6 +28,10 @@ std::string hexadecimal(std::uint64_t value) {
     return fmt::format("{:016x}", value);
 }
 
+std::uint64_t parse_hexadecimal(const std::string& text) {
+    return std::stoull(text, nullptr, 16);
+}
+
 std::int64_t as_integer(std::uint64_t value) {
     return static_cast<std::int64_t>(value);
 }
@@ -137,6 +141,25 @@ sim::RunCounters read_counters(SQLite::Statement& row) {
             .reboots = unsigned_column(row, "reboots")};
 }
 
+/// The run of a row of the table run.
+RunRecord read_run(SQLite::Database& database, SQLite::Statement& row) {
+    RunRecord record;
+    record.settings_hash = row.getColumn("settings_hash").getString();
+    record.seed = unsigned_column(row, "seed");
+    record.result.counters = read_counters(row);
+    record.result.trajectory_hash = parse_hexadecimal(row.getColumn("trajectory_hash").getString());
+    record.result.robot_steps = unsigned_column(row, "robot_steps");
+    record.result.cpu_seconds = row.getColumn("cpu_seconds").getDouble();
+    const std::int64_t run = row.getColumn("id").getInt64();
+    record.result.samples = read_samples(database, run);
+    record.result.chronology = read_chronology(database, run);
+    record.result.creations = read_creations(database, run);
+    record.wall_seconds = row.getColumn("wall_seconds").getDouble();
+    record.finished_at = row.getColumn("finished_at").getString();
+    record.program_version = row.getColumn("program_version").getString();
+    return record;
+}
+
 std::vector<StoredArm> read_arms(SQLite::Database& database, const std::string& study) {
     std::vector<StoredArm> arms;
     SQLite::Statement rows(database, "SELECT * FROM arm WHERE study = ? ORDER BY position");
@@ -199,23 +222,38 @@ void Store::take_over_new_keys() {
 }
 
 void Store::put_study(const Study& study) {
+    StoredStudy stored{study.name,       study.title, study.description,
+                       study.first_seed, study.seeds, {}};
     SQLite::Transaction transaction(*database_);
-    execute(*database_, "DELETE FROM study WHERE name = ?", study.name);
-    execute(*database_, "INSERT INTO study VALUES (?, ?, ?, ?, ?)", study.name, study.title,
-            study.description, as_integer(study.first_seed), study.seeds);
-    std::int64_t position = 0;
     for (const Arm& arm : study.arms) {
         execute(*database_, "INSERT OR IGNORE INTO settings VALUES (?, ?)", arm.settings_hash,
                 arm.canonical);
+        stored.arms.push_back(
+            {arm.name, arm.profile, arm.parameters, arm.settings_hash, arm.settings});
+    }
+    execute(*database_, "DELETE FROM study WHERE name = ?", study.name);
+    insert_study(stored);
+    transaction.commit();
+}
+
+void Store::insert_study(const StoredStudy& study) {
+    execute(*database_, "INSERT INTO study VALUES (?, ?, ?, ?, ?)", study.name, study.title,
+            study.description, as_integer(study.first_seed), study.seeds);
+    std::int64_t position = 0;
+    for (const StoredArm& arm : study.arms) {
         execute(*database_, "INSERT INTO arm VALUES (?, ?, ?, ?, ?, ?, ?)", study.name, position++,
                 arm.name, arm.profile, arm.parameters, arm.settings_hash,
                 to_json(arm.settings).dump());
     }
-    transaction.commit();
 }
 
 void Store::put_run(const RunRecord& record) {
     SQLite::Transaction transaction(*database_);
+    insert_run(record);
+    transaction.commit();
+}
+
+void Store::insert_run(const RunRecord& record) {
     const sim::RunResult& result = record.result;
     const sim::RunCounters& counters = result.counters;
     execute(
@@ -235,7 +273,44 @@ void Store::put_run(const RunRecord& record) {
     insert_samples(*database_, run, result.samples);
     insert_chronology(*database_, run, result.chronology);
     insert_creations(*database_, run, result.creations);
+}
+
+std::size_t Store::take_over(const std::vector<std::filesystem::path>& stores) {
+    SQLite::Transaction transaction(*database_);
+    std::size_t entered = 0;
+    for (const auto& file : stores) entered += insert_missing_from(open_for_reading(file));
     transaction.commit();
+    return entered;
+}
+
+std::size_t Store::insert_missing_from(const Store& other) {
+    const auto hashes = other.current_hashes();
+    SQLite::Statement settings(*other.database_, "SELECT canonical FROM settings");
+    while (settings.executeStep()) {
+        const auto [text, added] =
+            with_new_keys(settings.getColumn(0).getString(), {other.database_->getFilename()});
+        execute(*database_, "INSERT OR IGNORE INTO settings VALUES (?, ?)", hash_of(text), text);
+    }
+    SQLite::Statement known(*database_, "SELECT 1 FROM study WHERE name = ?");
+    for (StoredStudy& study : other.studies()) {
+        known.bind(1, study.name);
+        const bool is_known = known.executeStep();
+        known.reset();
+        if (is_known) continue;
+        for (StoredArm& arm : study.arms) arm.settings_hash = hashes.at(arm.settings_hash);
+        insert_study(study);
+    }
+    const auto present = finished();
+    std::size_t entered = 0;
+    SQLite::Statement rows(*other.database_, "SELECT * FROM run ORDER BY id");
+    while (rows.executeStep()) {
+        RunRecord record = read_run(*other.database_, rows);
+        record.settings_hash = hashes.at(record.settings_hash);
+        if (present.contains({record.settings_hash, record.seed})) continue;
+        insert_run(record);
+        ++entered;
+    }
+    return entered;
 }
 
 std::map<std::string, std::string> Store::current_hashes() const {
@@ -259,6 +334,18 @@ std::set<RunKey> Store::finished() const {
                      static_cast<std::uint64_t>(rows.getColumn(1).getInt64()));
     }
     return keys;
+}
+
+std::map<RunKey, std::uint64_t> Store::trajectory_hashes() const {
+    const auto current = current_hashes();
+    std::map<RunKey, std::uint64_t> hashes;
+    SQLite::Statement rows(*database_, "SELECT settings_hash, seed, trajectory_hash FROM run");
+    while (rows.executeStep()) {
+        const RunKey key{current.at(rows.getColumn(0).getString()),
+                         static_cast<std::uint64_t>(rows.getColumn(1).getInt64())};
+        hashes[key] = parse_hexadecimal(rows.getColumn(2).getString());
+    }
+    return hashes;
 }
 
 std::map<std::string, RecordedTime> Store::recorded_times() const {
@@ -319,22 +406,7 @@ std::vector<RunRecord> Store::runs(const StoredStudy& study, const StoredArm& ar
     SQLite::bind(rows, arm.settings_hash, as_integer(study.first_seed),
                  as_integer(study.first_seed) + study.seeds);
     while (rows.executeStep()) {
-        RunRecord record;
-        record.settings_hash = arm.settings_hash;
-        record.seed = unsigned_column(rows, "seed");
-        record.result.counters = read_counters(rows);
-        record.result.trajectory_hash =
-            std::stoull(rows.getColumn("trajectory_hash").getString(), nullptr, 16);
-        record.result.robot_steps = unsigned_column(rows, "robot_steps");
-        record.result.cpu_seconds = rows.getColumn("cpu_seconds").getDouble();
-        const std::int64_t run = rows.getColumn("id").getInt64();
-        record.result.samples = read_samples(*database_, run);
-        record.result.chronology = read_chronology(*database_, run);
-        record.result.creations = read_creations(*database_, run);
-        record.wall_seconds = rows.getColumn("wall_seconds").getDouble();
-        record.finished_at = rows.getColumn("finished_at").getString();
-        record.program_version = rows.getColumn("program_version").getString();
-        records.push_back(std::move(record));
+        records.push_back(read_run(*database_, rows));
     }
     return records;
 }

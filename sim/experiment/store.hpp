@@ -91,6 +91,17 @@ public:
     /// How long the runs took, by the hash of their settings, as in finished().
     [[nodiscard]] std::map<std::string, RecordedTime> recorded_times() const;
 
+    /// The trajectory hash of each run, as in finished().
+    [[nodiscard]] std::map<RunKey, std::uint64_t> trajectory_hashes() const;
+
+    /// By the hash of settings that this store has: the hash that they have today. Another one only
+    /// where the store is open for reading and was written before some settings were introduced.
+    [[nodiscard]] std::map<std::string, std::string> current_hashes() const;
+
+    /// Enters all studies and runs of other stores that this one lacks, in one transaction; what it
+    /// has stays as it is. Returns how many runs were entered.
+    std::size_t take_over(const std::vector<std::filesystem::path>& stores);
+
     /// All studies, by name.
     [[nodiscard]] std::vector<StoredStudy> studies() const;
 
@@ -111,7 +122,9 @@ public:
 private:
     explicit Store(std::unique_ptr<SQLite::Database> database);
     void take_over_new_keys();
-    [[nodiscard]] std::map<std::string, std::string> current_hashes() const;
+    void insert_study(const StoredStudy& study);
+    void insert_run(const RunRecord& record);
+    std::size_t insert_missing_from(const Store& other);
 
     std::unique_ptr<SQLite::Database> database_;
     std::vector<std::string> new_keys_;
