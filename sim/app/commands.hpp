@@ -1,6 +1,12 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+#include "run_plan.hpp"
+#include "study.hpp"
 
 namespace gene_clocks::app {
 
@@ -12,11 +18,17 @@ enum ExitStatus : int {
     interrupted = 130,  ///< by Ctrl-C or SIGTERM; finished runs are kept
 };
 
+/// Makes the runs of a study or a shard, as conduct() does; `threads` is 0 where the user gave
+/// none.
+using Conductor =
+    std::function<int(const experiment::Study& study, const std::filesystem::path& store,
+                      std::int64_t threads, const experiment::Shard& shard)>;
+
 // Each adds one subcommand, whose callback does the work, sets `status` to an ExitStatus, and may
 // throw experiment::InputError for bad input.
 void add_run_command(CLI::App& app, int& status);
 void add_replay_command(CLI::App& app, int& status);
-void add_study_command(CLI::App& app, int& status);
+void add_study_command(CLI::App& app, int& status, Conductor conductor);
 void add_report_command(CLI::App& app, int& status);
 void add_reproduce_command(CLI::App& app, int& status);
 void add_settings_command(CLI::App& app, int& status);

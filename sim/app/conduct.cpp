@@ -58,8 +58,8 @@ void make_folder_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-int conduct(const Study& study, const std::filesystem::path& file, std::int64_t threads,
-            const experiment::Shard& shard) {
+int conduct(const Study& study, const std::filesystem::path& file, const experiment::Shard& shard,
+            const RunMaker& make_runs) {
     experiment::rehearse(study);
     const auto& stop = watch_stop_signals();
     make_folder_of(file);
@@ -77,14 +77,11 @@ int conduct(const Study& study, const std::filesystem::path& file, std::int64_t 
     if (tasks.empty()) return success;
 
     fmt::print(stderr, "{}: making {} runs\n", study.name, tasks.size());
-    experiment::RunnerOptions options;
-    options.threads = threads;
-    options.stop = &stop;
     experiment::Outcome outcome{};
     {
         experiment::Progress progress(stderr);
-        outcome = make_runs(
-            std::move(tasks), options, progress, [&](const experiment::FinishedTask& run) {
+        outcome =
+            make_runs(std::move(tasks), stop, progress, [&](const experiment::FinishedTask& run) {
                 store.put_run({run.task->settings_hash, run.task->seed, run.result,
                                run.wall_seconds, utc_now(), experiment::program_version()});
                 ++kept;
@@ -98,6 +95,19 @@ int conduct(const Study& study, const std::filesystem::path& file, std::int64_t 
                "Stopped. {} of {} runs are kept in {}; the same command goes on from there.\n",
                kept, all, file.string());
     return interrupted;
+}
+
+int conduct(const Study& study, const std::filesystem::path& file, std::int64_t threads,
+            const experiment::Shard& shard) {
+    return conduct(study, file, shard,
+                   [threads](std::vector<Task> tasks, const std::atomic<bool>& stop,
+                             experiment::Progress& progress, const auto& on_finished) {
+                       experiment::RunnerOptions options;
+                       options.threads = threads;
+                       options.stop = &stop;
+                       return experiment::make_runs(std::move(tasks), options, progress,
+                                                    on_finished);
+                   });
 }
 
 }  // namespace gene_clocks::app

@@ -1,17 +1,32 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <vector>
 
+#include "progress.hpp"
 #include "run_plan.hpp"
+#include "runner.hpp"
 #include "study.hpp"
 
 namespace gene_clocks::app {
+
+/// Makes runs, and hands each over as soon as it is made; as experiment::make_runs.
+using RunMaker = std::function<experiment::Outcome(
+    std::vector<experiment::Task> tasks, const std::atomic<bool>& stop,
+    experiment::Progress& progress,
+    const std::function<void(const experiment::FinishedTask&)>& on_finished)>;
 
 /// Makes the runs of a study, or of one shard of it, that its store does not hold yet, each
 /// entering it when finished, and says on standard error how it goes. Stops cleanly on Ctrl-C and
 /// SIGTERM. Returns an ExitStatus: success or interrupted. Throws InputError, before anything is
 /// written.
+int conduct(const experiment::Study& study, const std::filesystem::path& store,
+            const experiment::Shard& shard, const RunMaker& make_runs);
+
+/// The same, on so many threads of this process; 0: one for each of the processor's.
 int conduct(const experiment::Study& study, const std::filesystem::path& store,
             std::int64_t threads, const experiment::Shard& shard = {});
 

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 #include "commands.hpp"
-#include "conduct.hpp"
 #include "document.hpp"
 #include "dry_run.hpp"
 #include "run_plan.hpp"
@@ -33,18 +33,18 @@ std::string builtin_studies() {
     return text;
 }
 
-int run(const Options& options) {
+int run(const Options& options, const Conductor& conductor) {
     const auto document = experiment::find_document(experiment::Builtin::study, options.study);
     const Study study = experiment::read_study(document, options.common.study_options());
     const experiment::Shard shard = experiment::parse_shard(options.shard);
     const auto store = store_file(options.store, study, shard);
     if (options.dry_run) return dry_run(study, store, options.common.threads, shard);
-    return conduct(study, store, options.common.threads, shard);
+    return conductor(study, store, options.common.threads, shard);
 }
 
 }  // namespace
 
-void add_study_command(CLI::App& app, int& status) {
+void add_study_command(CLI::App& app, int& status, Conductor conductor) {
     auto* command = app.add_subcommand(
         "study",
         "Make all runs of a study, or those that are still missing, and keep them in a store");
@@ -78,8 +78,12 @@ void add_study_command(CLI::App& app, int& status) {
         "  gene-clocks study gecco15 --quick\n"
         "  gene-clocks study gecco15 --dry-run\n"
         "  gene-clocks study my-study.toml --store my-results.sqlite --threads 4\n"
-        "  gene-clocks study my-study.toml --shard 2/4\n");
-    command->callback([options, &status] { status = run(*options); });
+        "  gene-clocks study my-study.toml --shard 2/4\n"
+        "  mpirun -n 17 gene-clocks study my-study.toml    (16 runs at a time: where it was built "
+        "with MPI)\n");
+    command->callback([options, &status, conductor = std::move(conductor)] {
+        status = run(*options, conductor);
+    });
 }
 
 }  // namespace gene_clocks::app

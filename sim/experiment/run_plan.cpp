@@ -36,6 +36,11 @@ Shard parse_shard(const std::string& text) {
                     text, shards_maximum));
 }
 
+Task task_of(const Arm& arm, std::uint64_t seed) {
+    return {&arm.settings, &arm.arena, seed, arm.settings_hash,
+            fmt::format("arm {}, seed {}", arm.name, seed)};
+}
+
 std::vector<Task> plan_runs(const Study& study, const Shard& shard) {
     std::vector<Task> tasks;
     std::set<std::string> planned;
@@ -45,9 +50,7 @@ std::vector<Task> plan_runs(const Study& study, const Shard& shard) {
         if (!planned.insert(arm.settings_hash).second) continue;
         for (std::int64_t i = 0; i < study.seeds; ++i) {
             if (position++ % shard.count != shard.index - 1) continue;
-            const std::uint64_t seed = study.first_seed + static_cast<std::uint64_t>(i);
-            tasks.push_back({&arm.settings, &arm.arena, seed, arm.settings_hash,
-                             fmt::format("arm {}, seed {}", arm.name, seed)});
+            tasks.push_back(task_of(arm, study.first_seed + static_cast<std::uint64_t>(i)));
         }
     }
     return tasks;

@@ -23,6 +23,9 @@ inline constexpr std::int64_t shards_maximum = 1'000'000;
 /// The shard that "2/4" means: the second of four. Throws InputError where a text means none.
 Shard parse_shard(const std::string& text);
 
+/// The run of an arm with that seed. The task refers to the arm.
+Task task_of(const Arm& arm, std::uint64_t seed);
+
 /// The runs of a study, or of one shard of it, each once: two arms with the same settings share
 /// their runs. The tasks refer to the study, which must outlive them.
 ///

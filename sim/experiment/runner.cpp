@@ -144,14 +144,16 @@ std::size_t thread_count(const RunnerOptions& options, std::size_t tasks) {
 
 }  // namespace
 
-Outcome make_runs(std::vector<Task> tasks, const RunnerOptions& options, Progress& progress,
-                  const std::function<void(const FinishedTask&)>& on_finished) {
-    // Longest first, so that no thread is left alone with a long run at the end; else seed by seed,
-    // so that a study that is stopped has compared its arms on the same seeds.
+void sort_for_making(std::vector<Task>& tasks) {
     std::ranges::sort(tasks, [](const Task& a, const Task& b) {
         if (a.robot_steps() != b.robot_steps()) return a.robot_steps() > b.robot_steps();
         return std::tie(a.seed, a.settings_hash) < std::tie(b.seed, b.settings_hash);
     });
+}
+
+Outcome make_runs(std::vector<Task> tasks, const RunnerOptions& options, Progress& progress,
+                  const std::function<void(const FinishedTask&)>& on_finished) {
+    sort_for_making(tasks);
     ProgressState state;
     state.runs_total = tasks.size();
     for (const Task& task : tasks) state.robot_steps_total += task.robot_steps();

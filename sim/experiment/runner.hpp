@@ -44,6 +44,11 @@ struct RunnerOptions {
 
 enum class Outcome { finished, stopped };
 
+/// Sorts tasks into the order in which they are best begun: longest first, so that none is left
+/// alone with a long run at the end; else seed by seed, so that a study that is stopped has
+/// compared its arms on the same seeds.
+void sort_for_making(std::vector<Task>& tasks);
+
 /// Makes all runs, longest first, each on one thread, and calls `on_finished` from the calling
 /// thread with each as soon as it is made. When `stop` is set, or `on_finished` throws, runs under
 /// way are given up; those already made are still handed over.

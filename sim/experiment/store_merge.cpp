@@ -36,20 +36,21 @@ void refuse_the_same_file_twice(const fs::path& out, const std::vector<fs::path>
     }
 }
 
-/// Where two studies of one name differ, in words; empty where they are the same.
+/// What the second of two studies of one name has that the first has not, in words; empty where
+/// they are the same.
 std::string difference(const StoredStudy& a, const StoredStudy& b) {
-    if (a.title != b.title) return "title";
-    if (a.description != b.description) return "description";
-    if (std::pair(a.first_seed, a.seeds) != std::pair(b.first_seed, b.seeds)) return "seeds";
-    if (a.arms.size() != b.arms.size()) return "number of arms";
+    if (a.title != b.title) return "another title";
+    if (a.description != b.description) return "another description";
+    if (a.first_seed != b.first_seed || a.seeds != b.seeds) return "other seeds";
+    if (a.arms.size() != b.arms.size()) return "another number of arms";
     for (std::size_t i = 0; i < a.arms.size(); ++i) {
         const StoredArm& one = a.arms[i];
         const StoredArm& other = b.arms[i];
-        if (one.name != other.name) return fmt::format("names of arms ({})", other.name);
+        if (one.name != other.name) return fmt::format("arm {} for {}", other.name, one.name);
         if (one.profile != other.profile || one.parameters != other.parameters ||
             one.settings_hash != other.settings_hash ||
             to_json(one.settings) != to_json(other.settings)) {
-            return fmt::format("settings of arm {}", one.name);
+            return fmt::format("other settings of arm {}", one.name);
         }
     }
     return {};
@@ -66,10 +67,8 @@ public:
             const auto [known, is_new] = studies_.try_emplace(study.name, study, file);
             const std::string differs = is_new ? "" : difference(known->second.first, study);
             if (differs.empty()) continue;
-            throw InputError(
-                fmt::format("{}: study {} is another one than in {}: its {} differ{}", file,
-                            study.name, known->second.second, differs,
-                            differs.ends_with('s') || differs.ends_with(')') ? "" : "s"));
+            throw InputError(fmt::format("{}: study {} is another one than in {}: it has {}", file,
+                                         study.name, known->second.second, differs));
         }
         for (const auto& [key, hash] : store.trajectory_hashes()) {
             const auto [known, is_new] = runs_.try_emplace(key, hash, file);

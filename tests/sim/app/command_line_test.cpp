@@ -31,8 +31,8 @@ protected:
 
 TEST_F(CommandLineTest, HelpIsThereForEveryCommand) {
     EXPECT_THAT(output_of({"--help"}), HasSubstr("gene-clocks run --task navigation"));
-    for (const char* command :
-         {"run", "study", "report", "reproduce", "settings", "contrast", "export", "merge", "check-trace"}) {
+    for (const char* command : {"run", "study", "report", "reproduce", "settings", "contrast",
+                                "export", "merge", "check-trace"}) {
         EXPECT_THAT(output_of({command, "--help"}),
                     HasSubstr(std::string("gene-clocks ") + command))
             << command;

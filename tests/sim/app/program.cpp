@@ -26,9 +26,10 @@ std::filesystem::path make_file() {
 
 }  // namespace
 
-Program::Program(const std::filesystem::path& folder, const Arguments& arguments)
+Program::Program(const std::filesystem::path& folder, const Arguments& arguments,
+                 const char* program)
     : output_(make_file()), messages_(make_file()) {
-    std::vector<char*> words{const_cast<char*>(PROGRAM)};
+    std::vector<char*> words{const_cast<char*>(program)};
     for (const std::string& argument : arguments)
         words.push_back(const_cast<char*>(argument.c_str()));
     words.push_back(nullptr);
@@ -38,7 +39,7 @@ Program::Program(const std::filesystem::path& folder, const Arguments& arguments
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(open(output_.c_str(), O_WRONLY), STDOUT_FILENO);
     dup2(open(messages_.c_str(), O_WRONLY | O_APPEND), STDERR_FILENO);
-    if (chdir(folder.c_str()) == 0) execv(PROGRAM, words.data());
+    if (chdir(folder.c_str()) == 0) execv(program, words.data());
     _exit(127);
 }
 

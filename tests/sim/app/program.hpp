@@ -9,16 +9,19 @@
 
 namespace gene_clocks::test {
 
-/// The program gene-clocks, as a process of its own.
+/// A program, gene-clocks if it is not said otherwise, as a process of its own.
 class Program {
 public:
     using Arguments = std::vector<std::string>;
 
     /// Starts it in a folder.
-    Program(const std::filesystem::path& folder, const Arguments& arguments);
+    Program(const std::filesystem::path& folder, const Arguments& arguments,
+            const char* program = PROGRAM);
     ~Program();  ///< kills it if it still runs
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
+
+    [[nodiscard]] pid_t process() const { return process_; }
 
     /// Sends it a signal.
     void signal(int number) const;

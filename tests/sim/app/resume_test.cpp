@@ -4,10 +4,11 @@
 
 #include <chrono>
 #include <csignal>
-#include <sstream>
+#include <random>
 #include <thread>
 
 #include "program.hpp"
+#include "store_contents.hpp"
 #include "temporary_folder.hpp"
 
 namespace gene_clocks {
@@ -40,34 +41,8 @@ protected:
                                                const std::string& seeds = "12") const {
         return {"study", "x.toml", "--store", store, "--threads", "2", "--seeds", seeds};
     }
-    /// All that a store holds, but for the columns of times.
     [[nodiscard]] std::string contents(const std::string& store) const {
-        const auto runs = test::gene_clocks(folder.path(), {"export", store, "--runs", "-"}).output;
-        const auto samples =
-            test::gene_clocks(folder.path(), {"export", store, "--samples", "-"}).output;
-        return without_times(runs) + samples;
-    }
-    static std::string without_times(const std::string& csv) {
-        const auto cells = [](const std::string& line) {
-            std::vector<std::string> found;
-            std::stringstream stream(line);
-            for (std::string cell; std::getline(stream, cell, ',');) found.push_back(cell);
-            return found;
-        };
-        std::stringstream stream(csv);
-        std::string line;
-        std::vector<std::string> header;
-        std::string text;
-        while (std::getline(stream, line)) {
-            const auto values = cells(line);
-            if (header.empty()) header = values;
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                const bool is_time = header[i].ends_with("_seconds") || header[i] == "finished_at";
-                if (!is_time) text += values[i] + ",";
-            }
-            text += '\n';
-        }
-        return text;
+        return test::store_contents(folder.path(), store);
     }
     [[nodiscard]] std::string uninterrupted(const std::string& seeds = "12") const {
         EXPECT_EQ(test::gene_clocks(folder.path(), arguments("whole.sqlite", seeds)).status, 0);
@@ -93,6 +68,36 @@ TEST_F(ResumeTest, AKilledStudyEndsAsOneThatWasNot) {
     const std::string whole = uninterrupted();
     EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 1 + 24 + 1 + 24 * 30);
     EXPECT_EQ(contents("killed.sqlite"), whole);
+}
+
+TEST_F(ResumeTest, AStudyThatIsInterruptedTenTimesEndsAsOneThatWasNot) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    const std::string whole = uninterrupted("60");
+    const auto duration = Clock::now() - start;
+    // Anywhere in what comes after the start: among the runs, or while one enters the store. The
+    // ten together leave half of the study's time at least, so that none comes too late.
+    std::mt19937 random(20150711);
+    std::uniform_real_distribution<double> share(0.0, 1.0 / 20);
+    int interruptions = 0;
+    int killed = 0;
+    while (interruptions < 10) {
+        Program program(folder.path(), arguments("interrupted.sqlite", "60"));
+        ASSERT_TRUE(program.wait_for_message("making"));
+        std::this_thread::sleep_for(share(random) * duration);
+        const bool kill = random() % 2 == 0;
+        program.signal(kill ? SIGKILL : SIGINT);
+        const auto result = program.wait();
+        ASSERT_EQ(result.status, kill ? -SIGKILL : 130) << result.messages;
+        ++interruptions;
+        if (kill) ++killed;
+    }
+    EXPECT_GE(killed, 2);
+    EXPECT_LE(killed, 8);
+    const auto last = test::gene_clocks(folder.path(), arguments("interrupted.sqlite", "60"));
+    ASSERT_EQ(last.status, 0) << last.messages;
+    EXPECT_THAT(last.messages, HasSubstr("of 120 runs are there already"));
+    EXPECT_EQ(contents("interrupted.sqlite"), whole);
 }
 
 TEST_F(ResumeTest, CtrlCKeepsFinishedRunsAndTellsHowToGoOn) {

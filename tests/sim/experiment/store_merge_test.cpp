@@ -152,21 +152,21 @@ TEST_F(StoreMergeTest, RefusesAnotherStudyOfTheSameName) {
         return file;
     };
     const std::vector<std::pair<std::function<void(Study&)>, std::string>> cases = {
-        {[](Study& s) { s.title += "!"; }, "its title differs"},
-        {[](Study& s) { s.description += "!"; }, "its description differs"},
-        {[](Study& s) { ++s.seeds; }, "its seeds differ"},
-        {[](Study& s) { ++s.first_seed; }, "its seeds differ"},
-        {[](Study& s) { s.arms.pop_back(); }, "its number of arms differs"},
-        {[](Study& s) { s.arms[1].name = "zwei"; }, "its names of arms (zwei) differ"},
-        {[](Study& s) { s.arms[1].profile = "text"; }, "its settings of arm two differ"},
-        {[](Study& s) { s.arms[1].parameters = "B"; }, "its settings of arm two differ"},
+        {[](Study& s) { s.title += "!"; }, "it has another title"},
+        {[](Study& s) { s.description += "!"; }, "it has another description"},
+        {[](Study& s) { ++s.seeds; }, "it has other seeds"},
+        {[](Study& s) { ++s.first_seed; }, "it has other seeds"},
+        {[](Study& s) { s.arms.pop_back(); }, "it has another number of arms"},
+        {[](Study& s) { s.arms[1].name = "zwei"; }, "it has arm zwei for two"},
+        {[](Study& s) { s.arms[1].profile = "text"; }, "it has other settings of arm two"},
+        {[](Study& s) { s.arms[1].parameters = "B"; }, "it has other settings of arm two"},
         {[](Study& s) { s.arms[1].settings.measures.target_share = 0.6; },
-         "its settings of arm two differ"},
+         "it has other settings of arm two"},
         {[](Study& s) {
              std::swap(s.arms[1].settings_hash, s.arms[0].settings_hash);
              std::swap(s.arms[1].canonical, s.arms[0].canonical);
          },
-         "its settings of arm one differ"},
+         "it has other settings of arm one"},
     };
     for (const auto& [change_study, message] : cases) {
         const auto b = other(change_study);

@@ -1,0 +1,135 @@
+#include "worker.hpp"
+
+#include <chrono>
+#include <exception>
+#include <future>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "assigned_run.hpp"
+#include "commands.hpp"
+#include "input_error.hpp"
+#include "run_message.hpp"
+#include "run_plan.hpp"
+#include "runner.hpp"
+
+namespace gene_clocks::app {
+namespace {
+
+using experiment::RunMessage;
+using experiment::Study;
+
+/// The worker's side of the conversation.
+class Worker {
+public:
+    Worker(Messenger& messenger, const std::atomic<bool>& stop)
+        : messenger_(messenger), stop_(stop) {}
+
+    /// What the coordinator says next.
+    Message wait() {
+        for (;;) {
+            if (auto message = look()) return *std::move(message);
+            wait_a_moment();
+        }
+    }
+
+    /// The same, if it has said something. Passes on that a signal told to stop.
+    std::optional<Message> look() {
+        if (stop_ && !std::exchange(has_given_up_, true)) {
+            messenger_.send(coordinator_rank, Topic::gave_up);
+        }
+        return messenger_.receive();
+    }
+
+    void say(Topic topic) { messenger_.send(coordinator_rank, topic); }
+    template <typename Content>
+    void say(Topic topic, const Content& content) {
+        messenger_.send(coordinator_rank, topic, content);
+    }
+
+    void say_failure(int status, const std::string& message) {
+        say(Topic::failed, static_cast<char>(status) + message);
+    }
+
+    void wait_for_end() {
+        while (wait().topic != Topic::end) {
+        }
+        say(Topic::bye);
+    }
+
+private:
+    Messenger& messenger_;
+    const std::atomic<bool>& stop_;
+    bool has_given_up_ = false;
+};
+
+/// Makes one run. None where `stop` was set before its end.
+std::optional<RunMessage> make_run(const Study& study, const AssignedRun& assigned,
+                                   const std::atomic<bool>& stop) {
+    if (assigned.arm >= study.arms.size()) throw std::runtime_error("a message that is no task");
+    const experiment::Arm& arm = study.arms[assigned.arm];
+    experiment::RunnerOptions options;
+    options.threads = 1;
+    options.stop = &stop;
+    experiment::Progress silent(nullptr);
+    std::optional<RunMessage> made;
+    make_runs({experiment::task_of(arm, assigned.seed)}, options, silent,
+              [&](const experiment::FinishedTask& run) {
+                  made = {run.task->settings_hash, run.task->seed, run.result, run.wall_seconds};
+              });
+    return made;
+}
+
+/// Makes the run of a task, meanwhile listening to the coordinator. False where that says to end.
+bool make_and_send(Worker& worker, const Study& study, const AssignedRun& assigned) {
+    std::atomic<bool> stop{false};
+    auto made = std::async(std::launch::async, [&] { return make_run(study, assigned, stop); });
+    while (made.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+        const auto message = worker.look();
+        if (message && message->topic == Topic::end) {
+            stop = true;
+            made.wait();
+            return false;
+        }
+    }
+    try {
+        if (const auto run = made.get()) worker.say(Topic::result, encode(*run));
+    } catch (const experiment::InputError& error) {
+        worker.say_failure(bad_input, error.what());
+    } catch (const std::exception& error) {
+        worker.say_failure(failure, error.what());
+    }
+    return true;
+}
+
+}  // namespace
+
+bool wait_for_begin(Messenger& messenger, const std::atomic<bool>& stop) {
+    Worker worker(messenger, stop);
+    if (worker.wait().topic == Topic::begin) return true;
+    worker.say(Topic::bye);
+    return false;
+}
+
+void serve(Messenger& messenger, const Study& study, const std::atomic<bool>& stop) {
+    Worker worker(messenger, stop);
+    worker.say(Topic::ready, fingerprint(study));
+    for (;;) {
+        const Message message = worker.wait();
+        if (message.topic == Topic::end) break;
+        if (message.topic != Topic::task) continue;
+        if (!make_and_send(worker, study, AssignedRun::of(message.content))) break;
+    }
+    worker.say(Topic::bye);
+}
+
+void fail(Messenger& messenger, int status, const std::string& message,
+          const std::atomic<bool>& stop) {
+    Worker worker(messenger, stop);
+    worker.say_failure(status, message);
+    worker.wait_for_end();
+}
+
+}  // namespace gene_clocks::app

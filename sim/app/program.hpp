@@ -1,0 +1,11 @@
+#pragma once
+
+#include "commands.hpp"
+
+namespace gene_clocks::app {
+
+/// The whole program: takes the command line apart, does what the command says, and reports what
+/// went wrong. Returns an ExitStatus. `conductor` makes the runs of `gene-clocks study`.
+int run_program(int argc, char** argv, const Conductor& conductor);
+
+}  // namespace gene_clocks::app
