@@ -186,14 +186,16 @@ def _looks(group, panels, members):
     if len(arms) == 1:
         return [("", look, own)]
     baselines = {held[0] for _, held in panels if len(held) == 2}
+    is_shared = own.treatment and all(title == group.arms[held[-1]].condition for title, held in panels)
     label = arms[0].label if len(baselines) == 1 else "what it is held against"
-    return [(label, palette.BASELINE, arms[0]), (OWN_ARM, look, own)]
+    return [(label, palette.BASELINE, arms[0]), (own.treatment if is_shared else OWN_ARM, look, own)]
 
 
 def arm_rows(group):
     """The rows of a figure: positions of arms, and a heading above those of one condition."""
     conditions = group.conditions
-    if len(conditions) == 1 or all(len(members) == 1 for members in conditions.values()):
+    alone = sum(len(members) == 1 for members in conditions.values())
+    if len(conditions) == 1 or 2 * alone > len(conditions):
         return list(range(len(group.arms)))
     rows = []
     for condition, members in conditions.items():

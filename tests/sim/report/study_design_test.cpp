@@ -99,6 +99,23 @@ TEST(StudyDesign, ChoicesOfASingleSourceAreComparedUnderTheOtherSettings) {
     }
 }
 
+TEST(StudyDesign, ChoicesAreConditionsWhereSourcesAreCompared) {
+    std::vector<Arm> arms;
+    for (const char* mismatch : {"odneat.mismatch=excess-disjoint", "odneat.mismatch=age"})
+        for (const sim::Source source : {gene_clock, timestamp})
+            arms.push_back(short_arm(navigation, source, {mismatch}));
+    const Input input = input_of(std::move(arms));
+    const auto comparisons = compare(input);
+    const Group group = groups_of(comparisons).front();
+    ASSERT_EQ(group.factors.size(), 1U);
+    EXPECT_FALSE(group.is_treatment(group.factors[0]));
+    EXPECT_EQ(names_of(pair_treatments(group)),
+              (Pairs{{"navigation-timestamp-odneat.mismatch=excess-disjoint",
+                      "navigation-gene-clock-odneat.mismatch=excess-disjoint"},
+                     {"navigation-timestamp-odneat.mismatch=age",
+                      "navigation-gene-clock-odneat.mismatch=age"}}));
+}
+
 // Sizes with their scale: one factor, named by the number that comes first; a repeated scale does
 // not part them.
 TEST(StudyDesign, SettingsThatGoAlongAreOneFactor) {
