@@ -4,22 +4,22 @@
 #include <memory>
 #include <utility>
 
-#include "gene_clocks/neat/innovation_source.hpp"
+#include "forwarding_source.hpp"
 
 namespace gene_clocks::sim {
 
 /// An innovation source whose counter a reboot sets back, so that it may mark a gene as it once
 /// marked another. The robot sees, and passes over, marks that the genome at hand has already; that
 /// others hold them it cannot see.
-class VolatileSource final : public neat::InnovationSource {
+class VolatileSource final : public ForwardingSource {
 public:
     explicit VolatileSource(std::unique_ptr<neat::InnovationSource> source)
-        : source_(std::move(source)) {}
+        : ForwardingSource(std::move(source)) {}
 
     std::optional<neat::SplitMarks> mark_split(const neat::Genome& genome, std::size_t connection,
                                                double now_cycles) override {
         for (;;) {
-            const auto marks = source_->mark_split(genome, connection, now_cycles);
+            const auto marks = ForwardingSource::mark_split(genome, connection, now_cycles);
             if (!marks || !(has(genome, marks->neuron) || has(genome, marks->incoming) ||
                             has(genome, marks->outgoing))) {
                 return marks;
@@ -30,18 +30,9 @@ public:
                                                     const neat::ConnectionEnds& ends,
                                                     double now_cycles) override {
         for (;;) {
-            const auto mark = source_->mark_connection(genome, ends, now_cycles);
+            const auto mark = ForwardingSource::mark_connection(genome, ends, now_cycles);
             if (!mark || !has(genome, *mark)) return mark;
         }
-    }
-    Stamp stamp() const override { return source_->stamp(); }
-    std::optional<Stamp> stamp_to_send(std::uint32_t birth) override {
-        return source_->stamp_to_send(birth);
-    }
-    std::uint32_t first_birth() const override { return source_->first_birth(); }
-    bool observe(Stamp stamp) override { return source_->observe(stamp); }
-    Admission admit(Stamp stamp, const neat::Genome& genome) override {
-        return source_->admit(stamp, genome);
     }
 
 private:
@@ -50,8 +41,6 @@ private:
         return genome.topology->find_neuron(mark) ||
                std::binary_search(connections.begin(), connections.end(), mark);
     }
-
-    std::unique_ptr<neat::InnovationSource> source_;
 };
 
 }  // namespace gene_clocks::sim

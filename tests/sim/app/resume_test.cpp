@@ -78,13 +78,13 @@ TEST_F(ResumeTest, AStudyThatIsInterruptedTenTimesEndsAsOneThatWasNot) {
     // Anywhere in what comes after the start: among the runs, or while one enters the store. The
     // ten together leave half of the study's time at least, so that none comes too late.
     std::mt19937 random(20150711);
-    std::uniform_real_distribution<double> share(0.0, 1.0 / 20);
+    const auto share = [&] { return static_cast<double>(random()) * 0x1p-32 / 20; };
     int interruptions = 0;
     int killed = 0;
     while (interruptions < 10) {
         Program program(folder.path(), arguments("interrupted.sqlite", "60"));
         ASSERT_TRUE(program.wait_for_message("making"));
-        std::this_thread::sleep_for(share(random) * duration);
+        std::this_thread::sleep_for(share() * duration);
         const bool kill = random() % 2 == 0;
         program.signal(kill ? SIGKILL : SIGINT);
         const auto result = program.wait();
