@@ -110,6 +110,34 @@ void encode_in_place(benchmark::State& state) {
 }
 BENCHMARK(encode_in_place)->Arg(40)->Arg(200);
 
+/// Noting which neurons are joined, in a genome that someone made up for a table without salt: all
+/// its pairs come from one place in 512. Arguments: connections, salt.
+void join_made_up(benchmark::State& state) {
+    const auto connections = static_cast<std::uint16_t>(state.range(0));
+    auto limits = WireLimits{}.kernel_limits();
+    std::vector<std::uint32_t> joined(GENE_CLOCKS_JOINED_WORDS(connections));
+    const auto start = [&] {
+        return kernel::gene_clocks_start_checks({0, 0, 0, connections}, 1, &limits, joined.data());
+    };
+    const auto unsalted = start();
+    std::vector<kernel::gene_clocks_ends> made_up;
+    for (std::uint32_t pair = 0; made_up.size() < connections; ++pair) {
+        if (kernel::gene_clocks_place_of(&unsalted, pair) > unsalted.joined_mask / 512) continue;
+        made_up.push_back(
+            {static_cast<std::uint16_t>(pair >> 16), static_cast<std::uint16_t>(pair)});
+    }
+    limits.salt = static_cast<std::uint32_t>(state.range(1));
+    for (auto _ : state) {
+        const auto checks = start();
+        for (const auto ends : made_up) {
+            benchmark::DoNotOptimize(kernel::gene_clocks_join(&checks, ends));
+        }
+    }
+}
+BENCHMARK(join_made_up)
+    ->ArgsProduct({{40, 1024, 65535}, {0, 0x5eed}})
+    ->Unit(benchmark::kMicrosecond);
+
 void checksum(benchmark::State& state) {
     const std::vector<std::uint8_t> bytes(static_cast<std::size_t>(state.range(0)), 0x5a);
     for (auto _ : state) {

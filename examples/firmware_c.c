@@ -17,7 +17,13 @@ enum {
 
 static const struct gene_clocks_limits clock_limits = {UINT64_MAX, 1000, UINT64_MAX};
 static const struct gene_clocks_wire_limits wire_limits = {
-    frame_bytes_max, genesis_count, neurons_max, connections_max, 1000.0f, 10.0f};
+    frame_bytes_max,
+    genesis_count,
+    neurons_max,
+    connections_max,
+    1000.0f,
+    10.0f,
+    0 /* no salt: genomes as small as these are checked in no time, whoever made them up */};
 
 /* ---- A robot -------------------------------------------------------------------------------- */
 

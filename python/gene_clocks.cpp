@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <random>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -311,8 +312,8 @@ void define_wire_format(py::module_& module) {
                  if (!(energy >= 0.0f) || !(weight >= 0.0f)) {
                      throw py::value_error("the limits of energy and weight are not negative");
                  }
-                 return WireLimits{frame_bytes, genesis_count, neurons,
-                                   connections, energy,        weight};
+                 return WireLimits{frame_bytes, genesis_count,         neurons, connections, energy,
+                                   weight,      std::random_device{}()};
              }),
              py::kw_only(), "frame_bytes"_a = standard.frame_bytes,
              "genesis_count"_a = standard.genesis_count, "neurons"_a = standard.neurons,

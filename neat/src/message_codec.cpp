@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <random>
 #include <utility>
 
 namespace gene_clocks::neat {
@@ -111,6 +112,13 @@ WireLimits limits_of_fleet(WireLimits limits, const Topology& initial) {
     return limits;
 }
 
+/// With a salt that no stranger knows; nothing that comes of it can be seen but how long checks
+/// take.
+WireLimits salted(WireLimits limits) {
+    if (limits.salt == 0) limits.salt = std::random_device{}();
+    return limits;
+}
+
 }  // namespace
 
 std::size_t payload_bytes(const Genome& genome) {
@@ -165,7 +173,7 @@ WireLimits wire_limits(const Topology& initial, const OdneatSettings& settings) 
 MessageCodec::MessageCodec(std::shared_ptr<const Topology> initial, const WireLimits& limits)
     : initial_(std::move(initial)),
       initial_genes_(initial_->size()),
-      limits_(limits_of_fleet(limits, *initial_)),
+      limits_(salted(limits_of_fleet(limits, *initial_))),
       kernel_limits_(limits_.kernel_limits()),
       genes_(std::size_t{limits.neurons} + limits.connections),
       joined_(GENE_CLOCKS_JOINED_WORDS(limits.connections)) {

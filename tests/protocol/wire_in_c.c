@@ -32,9 +32,13 @@ static struct gene_clocks_fault write(const struct gene_clocks_frame* frame,
 
 int c_transcode(const uint8_t* bytes, size_t size, const struct c_wire_limits* c_limits,
                 uint8_t* out, size_t capacity, size_t* out_size, size_t* offset) {
-    const struct gene_clocks_wire_limits limits = {c_limits->frame_bytes, c_limits->genesis_count,
-                                                   c_limits->neurons,     c_limits->connections,
-                                                   c_limits->energy,      c_limits->weight};
+    const struct gene_clocks_wire_limits limits = {c_limits->frame_bytes,
+                                                   c_limits->genesis_count,
+                                                   c_limits->neurons,
+                                                   c_limits->connections,
+                                                   c_limits->energy,
+                                                   c_limits->weight,
+                                                   0x5eed};
     struct gene_clocks_frame frame;
     struct gene_clocks_genome genome;
     *out_size = 0;

@@ -247,6 +247,30 @@ TEST(WireDamage, NothingIsAllocated) {
     EXPECT_EQ(test::allocations().count, before.count);
 }
 
+TEST(WireDamage, PairsThatMeetInOnePlaceAreScatteredByASalt) {
+    constexpr std::uint16_t connections = 512;
+    const auto checks_with = [](const kernel::gene_clocks_wire_limits& limits) {
+        std::array<std::uint32_t, GENE_CLOCKS_JOINED_WORDS(connections)> joined;
+        return kernel::gene_clocks_start_checks({0, 0, 0, connections}, 1, &limits, joined.data());
+    };
+    auto limits = WireLimits{}.kernel_limits();
+    const auto unsalted = checks_with(limits);
+    std::vector<std::uint32_t> pairs;
+    for (std::uint32_t pair = 0; pairs.size() < connections; ++pair) {
+        if (kernel::gene_clocks_place_of(&unsalted, pair) == 7) pairs.push_back(pair);
+    }
+    for (const std::uint32_t salt : {1u, 0x10u, 0x5eedu, 0x80000001u, 0xffffffffu}) {
+        limits.salt = salt;
+        const auto salted = checks_with(limits);
+        std::set<std::uint32_t> places;
+        for (const std::uint32_t pair : pairs) {
+            places.insert(kernel::gene_clocks_place_of(&salted, pair));
+        }
+        EXPECT_GT(places.size(), 100u) << "salt " << salt;
+        EXPECT_LE(*places.rbegin(), salted.joined_mask) << "salt " << salt;
+    }
+}
+
 TEST(WireFrame, IsReadAndWrittenAtCompileTime) {
     constexpr bool is_same = [] {
         const std::array<std::uint8_t, 3> payload{1, 2, 3};

@@ -91,6 +91,7 @@ struct gene_clocks_genome_checks {
      * least twice the connections that were announced, so that a free place is always near. */
     uint32_t* joined;
     uint32_t joined_mask;
+    uint32_t multiplier; /* odd */
     uint64_t stamp;
     GENE_CLOCKS_MARK last; /* <0, 0> before the first gene */
     struct gene_clocks_genome genome;
@@ -113,16 +114,30 @@ GENE_CLOCKS_FUNCTION struct gene_clocks_genome_checks gene_clocks_start_checks(
     if (genome.connections > 0) {
         for (uint32_t i = 0; i < size; ++i) joined[i] = GENE_CLOCKS_NOT_JOINED;
     }
+    /* Any two salts, also 1 and 2, make multipliers that have nothing to do with each other (the
+     * mixing is MurmurHash3's). */
+    uint32_t multiplier = limits->salt + 0x9e3779b9u;
+    multiplier = (multiplier ^ multiplier >> 16) * 0x85ebca6bu;
+    multiplier = (multiplier ^ multiplier >> 13) * 0xc2b2ae35u;
+    multiplier = (multiplier ^ multiplier >> 16) | 1u;
     const struct gene_clocks_genome_checks checks = {
-        limits, joined, size - 1, stamp, {0, 0}, genome, 0, 0, 0, 0, false};
+        limits, joined, size - 1, multiplier, stamp, {0, 0}, genome, 0, 0, 0, 0, false};
     return checks;
 }
 
-/* Notes that a connection joins these neurons; false where one does already. */
+/* Where the search for a pair begins: multiplicative hashing (Knuth; by an odd multiplier drawn at
+ * random it is universal: Dietzfelbinger et al., 1997). */
+GENE_CLOCKS_FUNCTION uint32_t gene_clocks_place_of(const struct gene_clocks_genome_checks* checks,
+                                                   uint32_t pair) {
+    return (uint32_t)((uint64_t)(pair * checks->multiplier) * (checks->joined_mask + 1u) >> 32);
+}
+
+/* Notes that a connection joins these neurons; false where one does already. In constant time, but
+ * for a genome made up by someone who knows the salt: then in time linear in its connections. */
 GENE_CLOCKS_FUNCTION bool gene_clocks_join(const struct gene_clocks_genome_checks* checks,
                                            struct gene_clocks_ends ends) {
     const uint32_t pair = (uint32_t)ends.source << 16 | ends.target;
-    uint32_t place = (pair * 0x9e3779b9u >> 12) & checks->joined_mask;
+    uint32_t place = gene_clocks_place_of(checks, pair);
     while (checks->joined[place] != GENE_CLOCKS_NOT_JOINED) {
         if (checks->joined[place] == pair) return false;
         place = (place + 1) & checks->joined_mask;
@@ -359,7 +374,7 @@ GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_decode_genome(
     const struct gene_clocks_wire_limits* limits, struct gene_clocks_genome* genome,
     struct gene_clocks_gene* genes, uint32_t* joined) {
     struct gene_clocks_genome_reader reader = {
-        {NULL, 0, 0}, {NULL, NULL, 0, 0, {0, 0}, {0, 0, 0, 0}, 0, 0, 0, 0, false}};
+        {NULL, 0, 0}, {NULL, NULL, 0, 0, 0, {0, 0}, {0, 0, 0, 0}, 0, 0, 0, 0, false}};
     struct gene_clocks_fault fault =
         gene_clocks_open_genome(&reader, payload, size, stamp, limits, joined);
     if (fault.error) return fault;

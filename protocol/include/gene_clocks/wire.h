@@ -78,6 +78,9 @@ struct gene_clocks_wire_limits {
     uint16_t connections;   /* connection genes of a genome */
     float energy;
     float weight;
+    /* Not a limit, and no matter to what is admitted: any number that strangers cannot guess, so
+     * that they cannot make up a genome that takes long to check (see gene_clocks_join). */
+    uint32_t salt;
 };
 
 /* ---- Bytes ---------------------------------------------------------------------------------- */

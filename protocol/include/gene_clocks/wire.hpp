@@ -111,9 +111,13 @@ struct WireLimits {
     std::uint16_t connections = 1024;    ///< connection genes of a genome
     float energy = std::numeric_limits<float>::max();  ///< magnitude; not negative
     float weight = std::numeric_limits<float>::max();  ///< magnitude; not negative
+    /// Changes nothing that is admitted: any number that strangers cannot guess, so that they
+    /// cannot make up a genome that takes long to check (`neat::MessageCodec` draws one where this
+    /// is 0).
+    std::uint32_t salt = 0;
 
     [[nodiscard]] constexpr kernel::gene_clocks_wire_limits kernel_limits() const {
-        return {frame_bytes, genesis_count, neurons, connections, energy, weight};
+        return {frame_bytes, genesis_count, neurons, connections, energy, weight, salt};
     }
 };
 
