@@ -207,6 +207,7 @@ for only in (["navigation"],):
     tables_of("reboots", "reboots", [NAME, FITNESS, *ORDER[:1], *COLLISIONS, *TESTS], tasks=only)
     tables_of("late-joiners", "late-joiners", [NAME, FITNESS, *ORDER, *TESTS], tasks=only)
     tables_of("mating", "mating", [NAME, FITNESS, MATINGS, *HOMOLOGY, *TESTS], tasks=only)
+tables_of("parents", "parents", [NAME, FITNESS, MATINGS, *TESTS])
 tables_of("operators", "operators", [NAME, FITNESS, MATINGS, *TESTS])
 tables_of("equal-weights", "equal-weights", [NAME, FITNESS, *TESTS])
 tables_of("markings-other-profiles", "other profiles", [NAME, FITNESS, *TESTS])
