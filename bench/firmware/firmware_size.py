@@ -65,6 +65,8 @@ def table():
         parts = [["CLOCK"], ["ALIGNMENT"], ["DECODER"], ["CLOCK", "ALIGNMENT", "DECODER"]]
         if language == "C99":
             parts.append(["ENCODER"])
+        else:
+            parts.append(["FLASH"])
         for part in parts:
             code, ram, linked, stack = measure(language, part)
             name = f"{language}: {', '.join(part).lower()}"

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "gene_clocks/align.hpp"
+#include "gene_clocks/flash_store.hpp"
 #include "gene_clocks/gene_clock.hpp"
 #include "gene_clocks/wire.hpp"
 
@@ -48,6 +49,41 @@ WireResult<Frame> decode(std::span<const std::uint8_t> bytes, const WireLimits& 
                                                          &kernel_limits, &genome, genes, joined);
     if (fault.error) return WireFault::from(fault);
     return frame;
+}
+#endif
+
+#ifdef PART_FLASH
+/// A driver's functions; the sectors' size is that of many microcontrollers.
+struct Sectors {
+    static constexpr std::size_t program_unit = 8;
+    static constexpr std::size_t sector_size = 4096;
+
+    bool (*read_bytes)(std::size_t sector, std::size_t offset, std::byte* bytes, std::size_t size);
+    bool (*program_bytes)(std::size_t sector, std::size_t offset, const std::byte* bytes,
+                          std::size_t size);
+    bool (*erase_sector)(std::size_t sector);
+
+    bool read(std::size_t sector, std::size_t offset, std::span<std::byte> bytes) const {
+        return read_bytes(sector, offset, bytes.data(), bytes.size());
+    }
+    bool program(std::size_t sector, std::size_t offset, std::span<const std::byte> bytes) const {
+        return program_bytes(sector, offset, bytes.data(), bytes.size());
+    }
+    bool erase(std::size_t sector) const { return erase_sector(sector); }
+};
+using Store = FlashStore<Sectors>;
+
+StorageStatus flash_create(Store& store);
+StorageStatus flash_create(Store& store) {
+    return store.create(1);
+}
+StorageStatus flash_open(Store& store);
+StorageStatus flash_open(Store& store) {
+    return store.open();
+}
+StorageStatus flash_store(Store& store, std::uint64_t counter);
+StorageStatus flash_store(Store& store, std::uint64_t counter) {
+    return store.store(counter);
 }
 #endif
 

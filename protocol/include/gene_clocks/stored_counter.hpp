@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -69,8 +68,7 @@ struct RecordReading {
 
 namespace detail {
 
-inline constexpr std::array record_mark{std::byte{'G'}, std::byte{'C'}, std::byte{'L'},
-                                        std::byte{'K'}};
+inline constexpr std::uint32_t record_mark = 0x4b4c4347;  // "GCLK" in the order of its bytes
 
 template <std::unsigned_integral Number>
 constexpr void put_little_endian(std::byte* to, Number number) {
@@ -100,7 +98,7 @@ constexpr std::uint32_t record_checksum(std::span<const std::byte, counter_recor
 
 constexpr CounterRecord write_record(RobotId robot, std::uint64_t counter) {
     CounterRecord record{};
-    std::ranges::copy(detail::record_mark, record.begin());
+    detail::put_little_endian(record.data(), detail::record_mark);
     detail::put_little_endian(record.data() + 4, counter_record_version);
     detail::put_little_endian(record.data() + 8, static_cast<std::uint32_t>(robot));
     detail::put_little_endian(record.data() + 12, counter);
@@ -114,7 +112,7 @@ constexpr RecordReading read_record(RobotId robot, std::span<const std::byte> by
     if (bytes.size() != counter_record_size ||
         detail::take_little_endian<std::uint32_t>(bytes.data() + 20) !=
             detail::record_checksum(bytes.first<counter_record_size>()) ||
-        !std::ranges::equal(bytes.first(4), detail::record_mark)) {
+        detail::take_little_endian<std::uint32_t>(bytes.data()) != detail::record_mark) {
         return {StorageError::damaged};
     }
     if (detail::take_little_endian<std::uint32_t>(bytes.data() + 4) != counter_record_version) {
