@@ -513,7 +513,7 @@ TEST_F(AgentTest, MatesOnlyTwoDifferentGenomes) {
 TEST_F(AgentTest, MatesWhomTheSettingsSay) {
     settings_.p_mate = 1.0;
     settings_.population = 10;
-    const auto mates_always = [&](SecondParent rule, float weight_of_other) {
+    const auto mates_always = [&](SecondParent rule, float farther_by) {
         settings_.second_parent = rule;
         int mated = 0;
         for (std::uint32_t robot = 11; robot <= 60; ++robot) {
@@ -521,7 +521,8 @@ TEST_F(AgentTest, MatesWhomTheSettingsSay) {
             Message other = message(0, 0.0f, 90.0f);
             auto genome = std::make_shared<Genome>(agent.active());
             genome->id = other.genome->id;
-            genome->weights[0] += weight_of_other;
+            float& weight = genome->weights[0];  // and stays in range
+            weight += weight > 0.0f ? -farther_by : farther_by;
             other.genome = std::move(genome);
             agent.receive(other);
             mated += agent.replace(0.0).mated ? 1 : 0;
