@@ -24,6 +24,9 @@ PAPER = programs("paper", "paper", "section_2_related_work", "section_3_1_markin
 EXPERIMENTS = programs("paper", "paper", "section_4_experiments")
 SWARMS = programs("property", "protocol", "swarm_property")
 OPERATORS = programs("property", "neat", "operators_property", "swarm_property")
+CHRONOLOGY = programs("unit", "sim/core", "chronology", "simulation")
+STATISTICS = programs("unit", "sim/statistics", "statistics")
+CONTRASTS = programs("unit", "sim/report", "report")
 EXPLORER = programs("explorer", "model", "model")
 ORACLE = Step("oracle", ("oracle", "oracle_schedule", "oracle_replay", "oracle_random_traces",
                          "oracle_check_traces"), r"^oracle\.(counters_of_.*|traces)$")
@@ -43,6 +46,9 @@ AREAS = {
                   TRACE],
     "neat/": [NEAT, OPERATORS, PAPER, FUZZ],
     "sim/trace/": [TRACE, ORACLE, FUZZ],
+    "sim/src/chronology/": [CHRONOLOGY],
+    "sim/experiment/statistics/": [STATISTICS],
+    "sim/report/": [CONTRASTS],
     "sim/": [EXPERIMENTS],
     "fuzz/": [FUZZ],
     "tests/model/": [EXPLORER],
