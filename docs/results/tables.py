@@ -5,6 +5,8 @@
     tables.py --check   only looks whether the page says what the data say; fails where it does not
     tables.py --record STUDY COMMIT
                         enters a study's cost, and the commit that made it, in data/provenance.csv
+    tables.py --figures STUDY FOLDER
+                        takes the figures that the page shows of a study from its report in FOLDER
 
 data/STUDY.runs.csv is what `gene-clocks export --runs` wrote, data/STUDY.contrast.csv what
 `gene-clocks contrast --csv` wrote; `./run results` makes both.
@@ -14,6 +16,7 @@ import argparse
 import csv
 import pathlib
 import re
+import shutil
 import statistics
 import sys
 
@@ -75,9 +78,9 @@ class Arm:
         return self.total(part) / divisor if divisor else None
 
 
-def arms(study, contrast=None):
-    """The arms of a study in its order; `contrast` names the file of comparisons."""
-    rows = {row["arm"]: row for row in read(f"{contrast or study}.contrast.csv")}
+def arms(study):
+    """The arms of a study in its order."""
+    rows = {row["arm"]: row for row in read(f"{study}.contrast.csv")}
     runs = {}
     for run in read(f"{study}.runs.csv"):
         runs.setdefault(run["arm"], []).append(run)
@@ -141,6 +144,7 @@ TESTS = [
     ("*p* equivalence", of_contrast(lambda row: p_value(row["equivalence_p_corrected"]))),
     ("verdict", of_contrast(lambda row: row["verdict"])),
 ]
+BRIEFLY = [TESTS[0], TESTS[1], TESTS[-1]]
 POWER = ("power", of_contrast(lambda row: f"{float(row['power_equivalence']):.2f}"))
 ORDER = [
     ("against cause, %", share("cause_inverted", "caused_pairs")),
@@ -169,10 +173,6 @@ def table(rows, columns):
     return "\n".join(lines)
 
 
-def of_task(task, rows):
-    return [arm for arm in rows if arm.task == task]
-
-
 def provenance():
     rows = read("provenance.csv")
     columns = [
@@ -189,10 +189,13 @@ def provenance():
 TABLES = {"provenance": provenance}
 
 
-def tables_of(study, name, columns, contrast=None, tasks=("navigation", "collection")):
+def tables_of(study, name, columns, tasks=("navigation", "collection"), but=None):
+    """A table for each task; without the arms whose names have `but`, a pattern, in them."""
     for task in tasks:
         key = f"{name} {task}" if len(tasks) > 1 else name
-        TABLES[key] = lambda task=task: table(of_task(task, arms(study, contrast)), columns)
+        TABLES[key] = lambda task=task: table(
+            [arm for arm in arms(study)
+             if arm.task == task and not (but and re.search(but, arm.name))], columns)
 
 
 tables_of("markings", "markings fitness", [SOURCE, FITNESS, *TESTS])
@@ -200,16 +203,17 @@ tables_of("markings", "markings order", [SOURCE, *ORDER, *COLLISIONS, *HOMOLOGY]
 tables_of("markings", "markings cost", [SOURCE, MATINGS, *BYTES,
                                         ("largest counter", median("stamp_largest", 0))])
 for only in (["navigation"],):
-    tables_of("drift", "drift", [NAME, FITNESS, *ORDER, *TESTS], tasks=only)
-    tables_of("loss", "loss", [NAME, FITNESS, *ORDER, *TESTS], tasks=only)
-    tables_of("encounters", "encounters", [NAME, FITNESS, MATINGS, *TESTS], tasks=only)
-    tables_of("swarm-size", "swarm-size", [NAME, FITNESS, *ORDER, *TESTS], tasks=only)
-    tables_of("reboots", "reboots", [NAME, FITNESS, *ORDER[:1], *COLLISIONS, *TESTS], tasks=only)
-    tables_of("late-joiners", "late-joiners", [NAME, FITNESS, *ORDER, *TESTS], tasks=only)
+    tables_of("drift", "drift", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=only,
+              but="drift-ppm-(100|1000)$")
+    tables_of("loss", "loss", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=only)
+    tables_of("encounters", "encounters", [NAME, FITNESS, MATINGS, *BRIEFLY], tasks=only)
+    tables_of("swarm-size", "swarm-size", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=only)
+    tables_of("reboots", "reboots", [NAME, FITNESS, *ORDER[:1], *COLLISIONS, *BRIEFLY], tasks=only)
+    tables_of("late-joiners", "late-joiners", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=only)
     tables_of("mating", "mating", [NAME, FITNESS, MATINGS, *HOMOLOGY, *TESTS], tasks=only)
 tables_of("parents", "parents", [NAME, FITNESS, MATINGS, *TESTS])
 tables_of("operators", "operators", [NAME, FITNESS, MATINGS, *TESTS])
-tables_of("equal-weights", "equal-weights", [NAME, FITNESS, *TESTS])
+tables_of("equal-weights", "equal-weights", [NAME, FITNESS, *BRIEFLY])
 tables_of("markings-other-profiles", "other profiles", [NAME, FITNESS, *TESTS])
 
 PROVENANCE = ("study", "runs", "robot_steps", "cpu_seconds", "commit", "finished_at")
@@ -227,6 +231,14 @@ def record(study, commit):
         writer = csv.DictWriter(file, PROVENANCE, lineterminator="\n")
         writer.writeheader()
         writer.writerows(sorted([*others, row], key=lambda entry: entry["study"]))
+
+
+def take_figures(study, report):
+    """FIGURE.png of the report is figures/STUDY-FIGURE.png here."""
+    page = PAGE.read_text(encoding="utf-8")
+    for name in sorted(set(re.findall(rf"\(results/figures/{re.escape(study)}-([^)]+)\)", page))):
+        shutil.copyfile(pathlib.Path(report) / "figures" / name,
+                        HERE / "figures" / f"{study}-{name}")
 
 
 MARKED = re.compile(r"(<!-- table (?P<name>[^>]+?) -->\n).*?(<!-- end -->)", re.DOTALL)
@@ -251,10 +263,15 @@ def main():
     parser.add_argument("--check", action="store_true", help="change nothing, only compare")
     parser.add_argument("--record", nargs=2, metavar=("STUDY", "COMMIT"),
                         help="enter what a study cost")
+    parser.add_argument("--figures", nargs=2, metavar=("STUDY", "FOLDER"),
+                        help="take the page's figures of a study from its report")
     arguments = parser.parse_args()
     try:
         if arguments.record:
             record(*arguments.record)
+            return
+        if arguments.figures:
+            take_figures(*arguments.figures)
             return
         old = PAGE.read_text(encoding="utf-8")
         new = with_tables(old)
