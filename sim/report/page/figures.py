@@ -208,12 +208,13 @@ def _origin_handles(published):
 
 def draw_head(figure, handles, title="", columns=3):
     """Title and legend at the top of the figure, in room that is kept for them."""
-    title_inches = 0.25 if title else 0.0
+    heading = figure.text(0.008, 1.0 - 0.05 / figure.get_figheight(), title, va="top", fontweight="bold")
+    if heading.get_window_extent().xmax > figure.bbox.xmax:
+        heading.set_text(title.replace(": ", ":\n", 1))
+    title_inches = 0.25 + 0.15 * heading.get_text().count("\n") if title else 0.0
     rows = (len(handles) + columns - 1) // columns
     height = 1.0 - (title_inches + rows * 0.21) / figure.get_figheight()
     figure.get_layout_engine().set(rect=(0.0, 0.0, 1.0, height), h_pad=0.07, w_pad=0.07)
-    if title:
-        figure.text(0.008, 1.0 - 0.05 / figure.get_figheight(), title, va="top", fontweight="bold")
     if handles:
         top = 1.0 - title_inches / figure.get_figheight()
         figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.0, top), ncols=columns,
