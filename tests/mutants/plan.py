@@ -24,7 +24,7 @@ PAPER = programs("paper", "paper", "section_2_related_work", "section_3_1_markin
 EXPERIMENTS = programs("paper", "paper", "section_4_experiments")
 SWARMS = programs("property", "protocol", "swarm_property")
 OPERATORS = programs("property", "neat", "operators_property", "swarm_property")
-CHRONOLOGY = programs("unit", "sim/core", "chronology", "simulation")
+CORE = programs("unit", "sim/core", "chronology", "simulation")
 STATISTICS = programs("unit", "sim/statistics", "statistics")
 CONTRASTS = programs("unit", "sim/report", "report")
 EXPLORER = programs("explorer", "model", "model")
@@ -46,9 +46,10 @@ AREAS = {
                   TRACE],
     "neat/": [NEAT, OPERATORS, PAPER, FUZZ],
     "sim/trace/": [TRACE, ORACLE, FUZZ],
-    "sim/src/chronology/": [CHRONOLOGY],
+    "sim/src/chronology/": [CORE],
     "sim/experiment/statistics/": [STATISTICS],
     "sim/report/": [CONTRASTS],
+    "sim/src/simulation.cpp": [CORE],
     "sim/": [EXPERIMENTS],
     "fuzz/": [FUZZ],
     "tests/model/": [EXPLORER],
