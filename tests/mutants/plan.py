@@ -24,7 +24,8 @@ PAPER = programs("paper", "paper", "section_2_related_work", "section_3_1_markin
 EXPERIMENTS = programs("paper", "paper", "section_4_experiments")
 SWARMS = programs("property", "protocol", "swarm_property")
 OPERATORS = programs("property", "neat", "operators_property", "swarm_property")
-CORE = programs("unit", "sim/core", "chronology", "simulation")
+CORE = programs("unit", "sim/core", "simulation", "arena_map", "chronology", "measures",
+                "source_factory", "world")
 STATISTICS = programs("unit", "sim/statistics", "statistics")
 CONTRASTS = programs("unit", "sim/report", "report")
 EXPLORER = programs("explorer", "model", "model")
@@ -49,7 +50,8 @@ AREAS = {
     "sim/src/chronology/": [CORE],
     "sim/experiment/statistics/": [STATISTICS],
     "sim/report/": [CONTRASTS],
-    "sim/src/simulation.cpp": [CORE],
+    "sim/src/task.cpp": [EXPERIMENTS],
+    "sim/src/": [CORE, EXPERIMENTS],
     "sim/": [EXPERIMENTS],
     "fuzz/": [FUZZ],
     "tests/model/": [EXPLORER],

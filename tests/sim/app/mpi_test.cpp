@@ -92,6 +92,9 @@ TEST_F(MpiTest, GivesTheSameStore) {
 }
 
 TEST_F(MpiTest, TheRunsAreMadeByTheWorkers) {
+#ifdef GENE_CLOCKS_SANITIZED
+    GTEST_SKIP() << "asks how fast the program is";
+#endif
     Program program(folder.path(), mpirun(3, arguments("x.sqlite", "100000")), MPIRUN);
     ASSERT_TRUE(program.wait_for_message("making"));
     // Processor time of a process so far, in ticks.
@@ -148,6 +151,9 @@ TEST_F(MpiTest, AKilledWorkerLeavesAWholeStoreThatASecondStartGoesOnFrom) {
 }
 
 TEST_F(MpiTest, CtrlCKeepsFinishedRuns) {
+#ifdef GENE_CLOCKS_SANITIZED
+    GTEST_SKIP() << "asks how fast the program is";
+#endif
     for (const int signal : {SIGINT, SIGTERM}) {
         Program program(folder.path(), mpirun(3, arguments("x.sqlite", "100000")), MPIRUN);
         ASSERT_TRUE(program.wait_for_message("making"));
