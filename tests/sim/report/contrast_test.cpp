@@ -63,6 +63,7 @@ TEST(Contrast, OfRunsThatLieHigherIsDifferent) {
     EXPECT_EQ(found.pairs, 0U);
     EXPECT_GT(found.shift.interval.lower, found.margin);
     EXPECT_GT(found.effect, 0.95);
+    EXPECT_DOUBLE_EQ(found.margin, 0.05 * found.baseline_median);
     EXPECT_EQ(found.verdict, ContrastVerdict::different);
 }
 
@@ -116,6 +117,30 @@ TEST(Contrast, CorrectsOverTheArmsOfATask) {
     EXPECT_GT(corrected[0], family[0]);
     EXPECT_EQ(contrasts[4].difference_p_corrected, contrasts[4].difference_p_value);
     EXPECT_EQ(contrasts[4].equivalence_p_corrected, contrasts[4].equivalence_p_value);
+}
+
+TEST(Contrast, JudgesByCorrectedPValues) {
+    bool has_lost_an_equivalence = false;
+    bool has_lost_a_difference = false;
+    const double level = ContrastPlan{}.level;
+    for (std::size_t runs = 4; runs <= 40; runs += 4) {
+        const Input input =
+            input_of({{.runs = runs},
+                      {.source = timestamp, .level = 161.0, .first_seed = 100, .runs = runs},
+                      {.source = global_counter, .level = 165.0, .first_seed = 200, .runs = runs},
+                      {.source = content_hash, .level = 169.0, .first_seed = 300, .runs = runs}});
+        for (const Contrast& found : contrast(input, {})) {
+            using enum ContrastVerdict;
+            const bool is_different = found.verdict == different || found.verdict == small;
+            const bool is_equivalent = found.verdict == equivalent || found.verdict == small;
+            EXPECT_EQ(is_different, found.difference_p_corrected < level);
+            EXPECT_EQ(is_equivalent, found.equivalence_p_corrected < level);
+            has_lost_a_difference |= !is_different && found.difference_p_value < level;
+            has_lost_an_equivalence |= !is_equivalent && found.equivalence_p_value < level;
+        }
+    }
+    EXPECT_TRUE(has_lost_an_equivalence);
+    EXPECT_TRUE(has_lost_a_difference);
 }
 
 TEST(Contrast, FindsItsBaselineBySettings) {
