@@ -39,8 +39,8 @@ int c_transcode(const uint8_t* bytes, size_t size, const struct c_wire_limits* c
                                                    c_limits->energy,
                                                    c_limits->weight,
                                                    0x5eed};
-    struct gene_clocks_frame frame;
-    struct gene_clocks_genome genome;
+    struct gene_clocks_frame frame = {0, 0, 0.0f, NULL, 0};
+    struct gene_clocks_genome genome = {0, 0, 0, 0};
     *out_size = 0;
     struct gene_clocks_fault fault = gene_clocks_decode_frame(bytes, size, &limits, &frame);
     *offset = fault.offset;
