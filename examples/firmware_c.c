@@ -33,6 +33,7 @@ struct robot {
     struct gene_clocks_genome genome;
     struct gene_clocks_gene genes[neurons_max + connections_max]; /* sorted by mark */
     uint64_t flash;                                               /* stands for stable storage */
+    uint32_t births;                                              /* genomes made so far */
     unsigned refused;                                             /* frames that were dropped */
 };
 
@@ -60,6 +61,7 @@ static bool start(struct robot* robot, uint32_t id) {
     const struct gene_clocks_genome genome = {id, 0, 3, 2};
     robot->id = id;
     robot->genome = genome;
+    robot->births = 1; /* must not begin anew after a restart; see docs/add-to-your-neat.md */
     robot->refused = 0;
     for (uint16_t i = 0; i < 3; ++i) {
         const struct gene_clocks_mark mark = {i + 1u, 0};
@@ -87,6 +89,9 @@ static bool add_neuron(struct robot* robot, size_t index) {
     struct gene_clocks_gene* const end = &robot->genes[gene_count(robot) - 1];
     robot->genome.connections = (uint16_t)(robot->genome.connections + 2);
     split->is_enabled = false;
+    /* It is another genome now, and this robot's. */
+    robot->genome.robot = robot->id;
+    robot->genome.birth = robot->births++;
     end[0] = neuron(marks[0], gene_clocks_hidden);
     end[1] = connection(marks[1], split->ends.source, hidden, 1.0f);
     end[2] = connection(marks[2], hidden, split->ends.target, split->weight);

@@ -58,9 +58,16 @@ bool add_node(Genome& genome, GeneClock& clock, Random& random) {
 namespace {
 
 bool leads_to(const Genome& genome, InnovationNumber from, InnovationNumber to) {
-    return from == to || std::any_of(genome.links.begin(), genome.links.end(), [&](const Link& l) {
-               return l.from == from && leads_to(genome, l.to, to);
-           });
+    // Ends whatever the links are: a genome that came from elsewhere may have a cycle.
+    std::vector<InnovationNumber> reached{from};
+    for (std::size_t next = 0; next < reached.size(); ++next) {
+        if (reached[next] == to) return true;
+        for (const Link& link : genome.links) {
+            if (link.from != reached[next]) continue;
+            if (std::ranges::find(reached, link.to) == reached.end()) reached.push_back(link.to);
+        }
+    }
+    return false;
 }
 
 }  // namespace

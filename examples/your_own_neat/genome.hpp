@@ -12,6 +12,7 @@ namespace your_own_neat {
 
 using gene_clocks::GeneClock;
 using gene_clocks::InnovationNumber;
+using gene_clocks::RobotId;
 using Random = std::mt19937;
 
 enum class Kind : std::uint8_t { input, bias, output, hidden };
@@ -31,6 +32,8 @@ struct Link {
 
 /// Invariant: nodes and links are sorted by mark.
 struct Genome {
+    RobotId maker{};          ///< who made it
+    std::uint32_t birth = 0;  ///< a number that its maker gives to no other
     std::vector<Node> nodes;
     std::vector<Link> links;
     float fitness = 0.0f;

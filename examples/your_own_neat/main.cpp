@@ -57,8 +57,10 @@ public:
         if (!store_.create(genesis_count + 1)) fail("the counter cannot be stored");
         clock_ = GeneClock::restart(robot, store_.stored(), {.block = 1000});
         for (std::size_t i = 0; i < population_size; ++i) {
-            population_.push_back(initial_genome(random_));
-            evaluate(population_.back());
+            Genome genome = initial_genome(random_);
+            identify(genome);
+            evaluate(genome);
+            population_.push_back(std::move(genome));
         }
     }
 
@@ -117,6 +119,13 @@ private:
         return population_[best];
     }
 
+    /// For every genome that is made here. Processes of this example live once; one that may be
+    /// restarted has to go on with numbers that it has not given yet.
+    void identify(Genome& genome) {
+        genome.maker = clock_->robot();
+        genome.birth = births_++;
+    }
+
     void breed() {
         // Fitness is shared among kin, so that new structure has time to become good.
         std::vector<float> shared_fitness;
@@ -140,6 +149,7 @@ private:
             } else {
                 mutate_weights(child, random_);
             }
+            identify(child);
             evaluate(child);
             next.push_back(std::move(child));
         }
@@ -150,6 +160,7 @@ private:
     Random random_;
     storage::FileStore store_;
     std::optional<GeneClock> clock_;
+    std::uint32_t births_ = 0;
     std::vector<Genome> population_;
 };
 

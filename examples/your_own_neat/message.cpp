@@ -61,11 +61,12 @@ std::optional<std::vector<std::uint8_t>> encode(const Genome& genome, const Gene
     std::vector<std::uint8_t> payload(limits.frame_bytes);
     Joined joined;
     kernel::gene_clocks_genome_writer writer;
-    auto fault = kernel::gene_clocks_begin_genome(&writer, payload.data(), payload.size(),
-                                                  {static_cast<std::uint32_t>(clock.robot()), 0,
-                                                   static_cast<std::uint16_t>(genome.nodes.size()),
-                                                   static_cast<std::uint16_t>(genome.links.size())},
-                                                  stamp.value, &kernel_limits, joined.data());
+    auto fault =
+        kernel::gene_clocks_begin_genome(&writer, payload.data(), payload.size(),
+                                         {static_cast<std::uint32_t>(genome.maker), genome.birth,
+                                          static_cast<std::uint16_t>(genome.nodes.size()),
+                                          static_cast<std::uint16_t>(genome.links.size())},
+                                         stamp.value, &kernel_limits, joined.data());
     // Nodes and links go as one list in the order of their marks.
     auto node = genome.nodes.begin();
     auto link = genome.links.begin();
@@ -95,6 +96,8 @@ std::optional<Genome> decode(std::span<const std::uint8_t> bytes, GeneClock& clo
         kernel::gene_clocks_open_genome(&reader, frame->payload.data(), frame->payload.size(),
                                         frame->stamp.value, &kernel_limits, joined.data());
     Genome genome;
+    genome.maker = RobotId{reader.checks.genome.robot};
+    genome.birth = reader.checks.genome.birth;
     genome.fitness = frame->energy;
     while (!fault.error && kernel::gene_clocks_genes_left(&reader) > 0) {
         kernel::gene_clocks_gene gene;

@@ -31,8 +31,11 @@ gene_clocks_gene wire_gene(const NeuronGene& neuron) {
 /// in memory that is kept.
 class NeuronIndex {
 public:
-    NeuronIndex(std::vector<std::uint16_t>& places, const std::vector<NeuronGene>& neurons)
-        : places_(places), neurons_(neurons) {
+    /// `salt`: a number that strangers, who choose marks, cannot guess; else they could make up a
+    /// genome whose marks all fall in one place.
+    NeuronIndex(std::vector<std::uint16_t>& places, const std::vector<NeuronGene>& neurons,
+                std::uint32_t salt)
+        : places_(places), neurons_(neurons), salt_(salt * 0x9e3779b97f4a7c15u) {
         places_.assign(std::bit_ceil(2 * neurons.size() + 1), none);
     }
 
@@ -49,7 +52,9 @@ private:
     std::size_t place_of(InnovationNumber mark) const {
         const std::uint64_t key =
             mark.counter + (std::uint64_t{static_cast<std::uint32_t>(mark.robot)} << 32);
-        std::size_t place = key * 0x9e3779b97f4a7c15u >> 40;
+        std::uint64_t hash = (key ^ salt_) * 0xff51afd7ed558ccdu;  // MurmurHash3's
+        hash = (hash ^ hash >> 33) * 0xc4ceb9fe1a85ec53u;
+        std::size_t place = hash >> 40;
         while (true) {
             place &= places_.size() - 1;
             if (places_[place] == none || neurons_[places_[place]].mark == mark) return place;
@@ -59,6 +64,7 @@ private:
 
     std::vector<std::uint16_t>& places_;
     const std::vector<NeuronGene>& neurons_;
+    std::uint64_t salt_;
 };
 
 gene_clocks_gene wire_gene(const Genome& genome, std::size_t connection, const NeuronIndex& index) {
@@ -77,9 +83,9 @@ gene_clocks_gene wire_gene(const Genome& genome, std::size_t connection, const N
 /// Writes the genes from these on to `genes`, in the order of marks, neurons before connections of
 /// the same mark. `places` is scratch memory.
 void merge_genes(const Genome& genome, std::size_t neuron, std::size_t connection,
-                 gene_clocks_gene* genes, std::vector<std::uint16_t>& places) {
+                 gene_clocks_gene* genes, std::vector<std::uint16_t>& places, std::uint32_t salt) {
     const Topology& topology = *genome.topology;
-    NeuronIndex index(places, topology.neurons);
+    NeuronIndex index(places, topology.neurons, salt);
     for (std::size_t i = 0; i < neuron; ++i) index.add(i);
     while (neuron < topology.neurons.size() || connection < genome.connections()) {
         if (connection == genome.connections() ||
@@ -178,7 +184,7 @@ MessageCodec::MessageCodec(std::shared_ptr<const Topology> initial, const WireLi
       genes_(std::size_t{limits.neurons} + limits.connections),
       joined_(GENE_CLOCKS_JOINED_WORDS(limits.connections)) {
     const std::vector<float> any(initial_->connection_marks.size());
-    merge_genes({{}, initial_, any, any}, 0, 0, initial_genes_.data(), places_);
+    merge_genes({{}, initial_, any, any}, 0, 0, initial_genes_.data(), places_, limits_.salt);
 }
 
 // ---- Reading ------------------------------------------------------------------------------------
@@ -294,7 +300,7 @@ bool MessageCodec::take_genes(const Genome& genome) {
         ++connection;
     }
     merge_genes(genome, initial_->neurons.size(), initial_->connection_marks.size(),
-                genes_.data() + initial_genes_.size(), places_);
+                genes_.data() + initial_genes_.size(), places_, limits_.salt);
     return true;
 }
 

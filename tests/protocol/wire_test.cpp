@@ -271,6 +271,45 @@ TEST(WireDamage, PairsThatMeetInOnePlaceAreScatteredByASalt) {
     }
 }
 
+/// Looks that noting `pairs` takes in all, under a salt.
+std::size_t looks(const std::vector<std::uint32_t>& pairs, std::uint32_t salt) {
+    auto limits = WireLimits{}.kernel_limits();
+    limits.salt = salt;
+    std::vector<std::uint32_t> joined(GENE_CLOCKS_JOINED_WORDS(pairs.size()));
+    const auto checks = kernel::gene_clocks_start_checks(
+        {0, 0, 0, static_cast<std::uint16_t>(pairs.size())}, 1, &limits, joined.data());
+    std::size_t looks = 0;
+    for (const std::uint32_t pair : pairs) {
+        std::uint32_t place = kernel::gene_clocks_place_of(&checks, pair);
+        for (++looks; joined[place] != GENE_CLOCKS_NOT_JOINED; ++looks) {
+            place = (place + 1) & checks.joined_mask;
+        }
+        joined[place] = pair;
+    }
+    return looks;
+}
+
+TEST(WireDamage, NoSaltIsBadForLayersAndStars) {
+    constexpr std::uint32_t connections = 1024;
+    std::vector<std::uint32_t> layers, into_one, out_of_one;
+    for (std::uint32_t i = 0; i < connections; ++i) {
+        layers.push_back(i / 32 << 16 | (i % 32 + 32));
+        into_one.push_back(i << 16 | 2000);
+        out_of_one.push_back(2u << 16 | i);
+    }
+    for (std::uint32_t salt = 0; salt < 2000; ++salt) {
+        for (const auto* pairs : {&layers, &into_one, &out_of_one}) {
+            ASSERT_LT(looks(*pairs, salt), 3 * connections) << "salt " << salt;
+        }
+    }
+    // Those that made a bare multiplication look hundreds of times for each connection.
+    for (const std::uint32_t salt : {128955u, 85605u, 194444u}) {
+        for (const auto* pairs : {&layers, &into_one, &out_of_one}) {
+            EXPECT_LT(looks(*pairs, salt), 3 * connections) << "salt " << salt;
+        }
+    }
+}
+
 TEST(WireFrame, IsReadAndWrittenAtCompileTime) {
     constexpr bool is_same = [] {
         const std::array<std::uint8_t, 3> payload{1, 2, 3};
@@ -371,6 +410,21 @@ TEST(WireGenome, AWriterWithoutRoomTellsHowMuchIsNeeded) {
         }
         EXPECT_EQ(kernel::gene_clocks_end_genome(&writer).error, kernel::gene_clocks_wire_no_room);
         EXPECT_EQ(writer.bytes.size, decode_frame(frame_bytes, vectors().limits)->payload.size());
+    }
+}
+
+TEST(WireGenome, AKindThatThereIsNotIsNotWritten) {
+    const auto limits = vectors().limits.kernel_limits();
+    std::array<std::uint32_t, GENE_CLOCKS_JOINED_WORDS(12)> joined{};
+    kernel::gene_clocks_genome_writer writer{};
+    ASSERT_FALSE(kernel::gene_clocks_begin_genome(&writer, nullptr, 0, {1, 0, 3, 2}, 100, &limits,
+                                                  joined.data())
+                     .error);
+    for (const int kind : {5, 7}) {
+        const gene_clocks_gene gene{
+            {1, 0}, static_cast<kernel::gene_clocks_gene_kind>(kind), false, false, {0, 0}, 0.0f};
+        EXPECT_EQ(kernel::gene_clocks_put_gene(&writer, &gene).error,
+                  kernel::gene_clocks_wire_kind);
     }
 }
 

@@ -114,26 +114,25 @@ GENE_CLOCKS_FUNCTION struct gene_clocks_genome_checks gene_clocks_start_checks(
     if (genome.connections > 0) {
         for (uint32_t i = 0; i < size; ++i) joined[i] = GENE_CLOCKS_NOT_JOINED;
     }
-    /* Any two salts, also 1 and 2, make multipliers that have nothing to do with each other (the
-     * mixing is MurmurHash3's). */
-    uint32_t multiplier = limits->salt + 0x9e3779b9u;
-    multiplier = (multiplier ^ multiplier >> 16) * 0x85ebca6bu;
-    multiplier = (multiplier ^ multiplier >> 13) * 0xc2b2ae35u;
-    multiplier = (multiplier ^ multiplier >> 16) | 1u;
+    const uint32_t multiplier = 2 * limits->salt + 0x9e3779b9u;
     const struct gene_clocks_genome_checks checks = {
         limits, joined, size - 1, multiplier, stamp, {0, 0}, genome, 0, 0, 0, 0, false};
     return checks;
 }
 
-/* Where the search for a pair begins: multiplicative hashing (Knuth; by an odd multiplier drawn at
- * random it is universal: Dietzfelbinger et al., 1997). */
+/* Where the search for a pair begins. Pairs come in rows and columns, so that a multiplication
+ * alone heaps them up in a table with linear probing, for some salts; what follows it is
+ * MurmurHash3's. */
 GENE_CLOCKS_FUNCTION uint32_t gene_clocks_place_of(const struct gene_clocks_genome_checks* checks,
                                                    uint32_t pair) {
-    return (uint32_t)((uint64_t)(pair * checks->multiplier) * (checks->joined_mask + 1u) >> 32);
+    uint32_t hash = pair * checks->multiplier;
+    hash = (hash ^ hash >> 16) * 0x85ebca6bu;
+    hash = (hash ^ hash >> 13) * 0xc2b2ae35u;
+    return (uint32_t)((uint64_t)hash * (checks->joined_mask + 1u) >> 32);
 }
 
-/* Notes that a connection joins these neurons; false where one does already. In constant time, but
- * for a genome made up by someone who knows the salt: then in time linear in its connections. */
+/* Notes that a connection joins these neurons; false where one does already. In constant time as a
+ * rule; in time linear in the connections for a genome made up by someone who knows the salt. */
 GENE_CLOCKS_FUNCTION bool gene_clocks_join(const struct gene_clocks_genome_checks* checks,
                                            struct gene_clocks_ends ends) {
     const uint32_t pair = (uint32_t)ends.source << 16 | ends.target;
@@ -158,7 +157,8 @@ GENE_CLOCKS_FUNCTION enum gene_clocks_wire_error gene_clocks_check_mark(
 GENE_CLOCKS_FUNCTION enum gene_clocks_wire_error gene_clocks_check_neuron(
     const struct gene_clocks_genome_checks* checks, const struct gene_clocks_gene* gene) {
     if (checks->neurons == checks->genome.neurons) return gene_clocks_wire_gene_count;
-    bool is_in_turn = checks->outputs > 0; /* for a hidden neuron */
+    if (gene->kind > gene_clocks_connection) return gene_clocks_wire_kind; /* a writer's mistake */
+    bool is_in_turn = checks->outputs > 0;                                 /* for a hidden neuron */
     if (gene->kind != gene_clocks_hidden) {
         is_in_turn = checks->connections == 0 && gene->mark.robot == 0 &&
                      checks->neurons == checks->inputs + checks->outputs &&

@@ -7,8 +7,8 @@
  *
  * The comments that begin with an at sign are contracts in ACSL. Frama-C proves that every
  * function keeps its contract for all inputs, without overflow or invalid access
- * (proofs/kernel/prove). Each contract names the step of the Coq model (proofs/theories) that it
- * mirrors.
+ * (proofs/kernel/prove); only of gene_clocks_visit, which calls what the user brings, it is assumed.
+ * Each contract names the step of the Coq model (proofs/theories) that it mirrors, if there is one.
  *
  * No allocation, no I/O, no global state, no undefined behaviour on any input that meets the
  * stated preconditions.
@@ -177,7 +177,8 @@ GENE_CLOCKS_FUNCTION bool gene_clocks_equal(GENE_CLOCKS_OF(gene_clocks_mark) a,
 
 /* Takes up a state: a stored one, or the one that another clock was left in. Returns false, and
  * changes nothing, where it breaks the invariant of gene_clocks_state. */
-/*@ requires \valid(state) && \valid_read(limits) && \separated(state, limits);
+/*@ // Coq: no step; start and restart go through it
+    requires \valid(state) && \valid_read(limits) && \separated(state, limits);
     assigns *state;
     ensures \result <==> 1 <= next <= durable <= limits->maximum;
     ensures \result ==> usable(state, limits) && state->next == next && state->durable == durable;
