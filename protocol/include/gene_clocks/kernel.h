@@ -7,8 +7,9 @@
  *
  * The comments that begin with an at sign are contracts in ACSL. Frama-C proves that every
  * function keeps its contract for all inputs, without overflow or invalid access
- * (proofs/kernel/prove); only of gene_clocks_visit, which calls what the user brings, it is assumed.
- * Each contract names the step of the Coq model (proofs/theories) that it mirrors, if there is one.
+ * (proofs/kernel/prove); only of gene_clocks_visit, which calls what the user brings, it is
+ * assumed. Each contract names the step of the Coq model (proofs/theories) that it mirrors, if
+ * there is one.
  *
  * No allocation, no I/O, no global state, no undefined behaviour on any input that meets the
  * stated preconditions.
