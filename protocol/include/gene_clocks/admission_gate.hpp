@@ -38,8 +38,9 @@ private:
 /// more with each cycle that goes by, heard or unheard. However many strangers send whatever they
 /// like, the clock advances by no more than that and its own genes (Claims.allowance_bounds_clock).
 /// And a stamp below that line is never refused for want of allowance, whatever was heard before
-/// (Claims.allowance_admits_below; the limits' maximum and window still count): the allowance grows in silence, so a fleet that mints no faster
-/// is heard again after any partition, and a clock that fell behind is not shut out for good.
+/// (Claims.allowance_admits_below; the limits' maximum and window still count): the allowance grows
+/// in silence, so a fleet that mints no faster is heard again after any partition, and a clock that
+/// fell behind is not shut out for good.
 ///
 /// The default policy refuses nothing that the clock's limits admit. One owner; no allocation.
 template <std::unsigned_integral Counter>
