@@ -11,7 +11,7 @@ bool store(std::uint64_t counter) {
 bool robots_talk(const authentication::Key& key, std::span<const std::uint8_t> frame,
                  std::uint64_t stored) {
     // Numbers of frames come from a clock of their own, which is stored and restarted as that of
-    // genes is.
+    // genes is, in a folder of its own.
     authentication::Sealer sealer{key, *GeneClock::restart(RobotId{1}, stored, {.block = 1000})};
     const auto sealed = sealer.seal(frame);
     if (!sealed || !store(sealer.durable_needed())) return false;  // before it leaves
