@@ -47,7 +47,6 @@ AREAS = {
                   TRACE],
     "neat/": [NEAT, OPERATORS, PAPER, FUZZ],
     "sim/trace/": [TRACE, ORACLE, FUZZ],
-    "sim/src/chronology/": [CORE],
     "sim/experiment/statistics/": [STATISTICS],
     "sim/report/": [CONTRASTS],
     "sim/src/task.cpp": [EXPERIMENTS],
