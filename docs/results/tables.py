@@ -8,8 +8,9 @@
     tables.py --figures STUDY FOLDER
                         takes the figures that the page shows of a study from its report in FOLDER
 
-data/STUDY.runs.csv is what `gene-clocks export --runs` wrote, data/STUDY.contrast.csv what
-`gene-clocks contrast --csv` wrote; `./run results` makes both.
+data/STUDY.runs.csv is what `gene-clocks export --runs` wrote, data/STUDY.contrast.csv and
+data/STUDY.paired.csv what `gene-clocks contrast` wrote with --csv and --paired-csv; `./run results`
+makes all three.
 """
 
 import argparse
@@ -210,11 +211,43 @@ for only in (["navigation"],):
     tables_of("swarm-size", "swarm-size", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=only)
     tables_of("reboots", "reboots", [NAME, FITNESS, *ORDER[:1], *COLLISIONS, *BRIEFLY], tasks=only)
     tables_of("late-joiners", "late-joiners", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=only)
+    tables_of("population", "population", [NAME, FITNESS, MATINGS, *BRIEFLY], tasks=only)
+    tables_of("growth", "growth", [NAME, FITNESS, MATINGS, *HOMOLOGY, *TESTS], tasks=only)
     tables_of("mating", "mating", [NAME, FITNESS, MATINGS, *HOMOLOGY, *TESTS], tasks=only)
 tables_of("parents", "parents", [NAME, FITNESS, MATINGS, *TESTS])
 tables_of("operators", "operators", [NAME, FITNESS, MATINGS, *TESTS])
 tables_of("equal-weights", "equal-weights", [NAME, FITNESS, *BRIEFLY])
 tables_of("markings-other-profiles", "other profiles", [NAME, FITNESS, *TESTS])
+
+def paired_of(study):
+    """The table "paired STUDY": what a sweep says as a whole, seed by seed."""
+    rows = read(f"{study}.paired.csv")
+    several_tasks = len({row["task"] for row in rows}) > 1
+    several_profiles = len({row["profile"] for row in rows}) > 1
+    columns = [
+        ("change", lambda row: f"`{row['change']}`"),
+        ("arms × seeds", lambda row: f"{row['arms']} × {row['seeds']}"),
+        ("identical runs", lambda row: number(100 * int(row["identical"]) /
+                                              (int(row["arms"]) * int(row["seeds"])), 0) + " %"),
+        ("held against", lambda row: number(float(row["baseline_mean"]), 1)),
+        ("difference [95 %]", lambda row: (
+            f"{signed(float(row['difference']), 1)} [{signed(float(row['difference_lower']), 1)}, "
+            f"{signed(float(row['difference_upper']), 1)}]")),
+        ("*p* difference", lambda row: p_value(row["difference_p_corrected"])),
+        ("*p* equivalence", lambda row: p_value(row["equivalence_p_corrected"])),
+        ("power", lambda row: f"{float(row['power_equivalence']):.2f}"),
+        ("verdict", lambda row: row["verdict"]),
+    ]
+    if several_profiles:
+        columns.insert(0, ("profile", lambda row: f"`{row['profile']}`"))
+    if several_tasks:
+        columns.insert(0, ("task", lambda row: row["task"]))
+    return table(rows, columns)
+
+
+for swept in ("drift", "loss", "encounters", "swarm-size", "reboots", "late-joiners", "population",
+              "mating", "growth", "operators", "equal-weights", "markings-other-profiles", "tuned"):
+    TABLES[f"paired {swept}"] = lambda swept=swept: paired_of(swept)
 
 PROVENANCE = ("study", "runs", "robot_steps", "cpu_seconds", "commit", "finished_at")
 

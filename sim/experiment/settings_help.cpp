@@ -14,8 +14,7 @@ namespace gene_clocks::experiment {
 namespace {
 
 std::string default_text(const Setting& setting) {
-    const Value value = setting.default_value();
-    return std::visit([](const auto& held) { return fmt::format("{}", held); }, value);
+    return to_text(setting.default_value());
 }
 
 /// "[0, 1]", "sum or mean", "true or false" or "text".

@@ -57,7 +57,7 @@ std::string toml_text(const Value& value) {
         stream << toml::toml_formatter(node, toml::format_flags::none);
         return stream.str();
     }
-    return std::visit([](const auto& held) { return fmt::format("{}", held); }, value);
+    return to_text(value);
 }
 
 nlohmann::json::json_pointer pointer_to(const Setting& setting) {

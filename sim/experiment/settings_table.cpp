@@ -259,6 +259,10 @@ std::vector<Setting> run_rows() {
 
 }  // namespace
 
+std::string to_text(const Value& value) {
+    return std::visit([](const auto& held) { return fmt::format("{}", held); }, value);
+}
+
 std::string Range::text() const {
     return fmt::format("{}{}, {}]", minimum_excluded ? "(" : "[", minimum, maximum);
 }

@@ -13,6 +13,9 @@ namespace gene_clocks::experiment {
 /// The value of one setting. Choices are text: the choice's name.
 using Value = std::variant<bool, std::int64_t, double, std::string>;
 
+/// As the command line takes it, for example "0.25", "true" or "gene-clock".
+std::string to_text(const Value& value);
+
 /// The values that a number may take.
 struct Range {
     double minimum = 0.0;

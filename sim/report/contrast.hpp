@@ -1,43 +1,23 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "comparison.hpp"
+#include "contrast_plan.hpp"
+#include "paired_contrast.hpp"
 #include "report.hpp"
 #include "statistics/equivalence.hpp"
 
 namespace gene_clocks::report {
 
-/// Which arms are set against which, in what.
-struct ContrastPlan {
-    /// What turns an arm's settings into those of the arm it is held against: "key=value", as the
-    /// command line has it. An arm that these leave as it is, is a baseline itself.
-    std::vector<std::string> baseline = {"source=gene-clock"};
-    std::string measure = "f_c";  ///< an id of `measures`
-    double margin_share = 0.05;  ///< differences below this share of the baseline's median are none
-    double level = 0.05;
-};
-
-/// What the tests of a contrast say, each corrected for the number of contrasts.
-enum class ContrastVerdict : std::uint8_t {
-    equivalent,  ///< shown to differ by less than the margin, and not shown to differ
-    small,       ///< shown to differ, and shown to differ by less than the margin
-    different,   ///< shown to differ, and not shown to do so by less than the margin
-    undecided,   ///< neither is shown
-};
-
-std::string_view name_of(ContrastVerdict verdict);
-
 /// One arm held against its baseline in one measure.
 ///
 /// Both sides may share seeds, which makes their runs alike. The tests take all runs as
 /// independent: they are then conservative, in what they find different as in what they find
-/// equivalent.
+/// equivalent. `PairedContrast` makes use of the pairs.
 struct Contrast {
     const Arm* arm{};
     const Arm* baseline{};
@@ -59,21 +39,23 @@ struct Contrast {
     ContrastVerdict verdict{};
 };
 
-/// Holds every arm with runs against its baseline, in the order of the arms. A family, over which
-/// p-values are corrected, are the contrasts of one task and profile.
-/// Arms whose baseline has no runs are left out, and named in `without_baseline` if that is given.
-/// Throws experiment::InputError where the plan or the runs are unfit, or no arm has a baseline.
-std::vector<Contrast> contrast(const Input& input, const ContrastPlan& plan,
-                               std::vector<std::string>* without_baseline = nullptr);
+Family family_of(const Contrast& contrast);
 
-/// Two arms, the second of which is the baseline.
-struct ContrastPair {
-    const ArmNumbers* arm{};
-    const ArmNumbers* baseline{};
+/// Holds each arm against the baseline it is given, in that order; the plan's own does not count.
+/// A family, over which p-values are corrected, are the contrasts of one task and profile.
+/// Throws experiment::InputError where the plan or the runs are unfit.
+std::vector<Contrast> contrast_pairs(std::span<const ContrastPair> pairs, const ContrastPlan& plan);
+
+/// All that a plan has to say of some arms.
+struct Contrasts {
+    std::vector<Contrast> arms;          ///< in the order of the arms
+    std::vector<PairedContrast> paired;  ///< of the same arms, put together by what they change
+    std::vector<std::string>
+        without_baseline;  ///< names of arms left out: their baseline has no runs
 };
 
-/// Holds each arm against the baseline it is given; the plan's baseline does not count.
-/// Throws as `contrast` does, but not where there are no pairs.
-std::vector<Contrast> contrast_pairs(std::span<const ContrastPair> pairs, const ContrastPlan& plan);
+/// Holds every arm with runs against its baseline. Refers to the arms of `input`.
+/// Throws experiment::InputError where the plan or the runs are unfit, or no arm has a baseline.
+Contrasts contrast(const Input& input, const ContrastPlan& plan);
 
 }  // namespace gene_clocks::report

@@ -74,11 +74,20 @@ bool has_margin(const Pairing& pairing, const ContrastPlan& plan) {
     return statistics::median(pairing.baseline->numbers->values.at(plan.measure)) != 0.0;
 }
 
-Json contrasts_json(const Group& group, std::vector<Pairing> pairings, const ContrastPlan& plan) {
+std::vector<Pairing> with_margin(std::vector<Pairing> pairings, const ContrastPlan& plan) {
     std::erase_if(pairings, [&](const Pairing& pairing) { return !has_margin(pairing, plan); });
+    return pairings;
+}
+
+std::vector<ContrastPair> numbers_of(const std::vector<Pairing>& pairings) {
     std::vector<ContrastPair> pairs;
     for (const auto& [arm, baseline] : pairings) pairs.push_back({arm->numbers, baseline->numbers});
-    const std::vector<Contrast> contrasts = contrast_pairs(pairs, plan);
+    return pairs;
+}
+
+Json contrasts_json(const Group& group, const std::vector<Pairing>& pairings,
+                    const ContrastPlan& plan) {
+    const std::vector<Contrast> contrasts = contrast_pairs(numbers_of(pairings), plan);
     Json json = Json::array();
     for (std::size_t i = 0; i < contrasts.size(); ++i) {
         Json row = {{"arm", pairings[i].arm - group.arms.data()},
@@ -86,6 +95,38 @@ Json contrasts_json(const Group& group, std::vector<Pairing> pairings, const Con
         row.update(contrast_json(contrasts[i]));
         json.push_back(std::move(row));
     }
+    return json;
+}
+
+Json paired_json(const PairedContrast& contrast) {
+    return {{"changes", contrast.changes},
+            {"arms", contrast.arms},
+            {"seeds", contrast.seeds},
+            {"identical", contrast.identical},
+            {"baseline_mean", contrast.baseline_mean},
+            {"margin", contrast.margin},
+            {"difference", contrast.test.mean},
+            {"difference_interval", to_json(contrast.test.interval)},
+            {"difference_p_value", contrast.difference_p_value},
+            {"difference_p_corrected", contrast.difference_p_corrected},
+            {"equivalence_p_value", contrast.equivalence_p_value},
+            {"equivalence_p_corrected", contrast.equivalence_p_corrected},
+            {"power_equivalence", contrast.power.equivalence},
+            {"power_difference", contrast.power.difference},
+            {"verdict", name_of(contrast.verdict)}};
+}
+
+/// Of the treatments, over all conditions.
+Json paired_contrasts_json(const Group& group, const std::vector<ContrastPair>& pairs,
+                           ContrastPlan plan) {
+    for (const Factor& factor : group.factors) {
+        if (group.is_treatment(factor)) continue;
+        for (const experiment::Setting* setting : factor.settings)
+            plan.over.push_back(setting->key);
+    }
+    Json json = Json::array();
+    for (const PairedContrast& contrast : paired_contrasts(pairs, plan))
+        json.push_back(paired_json(contrast));
     return json;
 }
 
@@ -103,8 +144,11 @@ Json group_json(const Group& group, const ContrastPlan& plan) {
     for (const Factor& factor : group.factors)
         json["factors"].push_back(factor_json(factor, group.is_treatment(factor)));
     for (const GroupArm& arm : group.arms) json["arms"].push_back(arm_json(arm));
-    json["treatment_contrasts"] = contrasts_json(group, pair_treatments(group), plan);
-    json["condition_contrasts"] = contrasts_json(group, pair_conditions(group), plan);
+    const std::vector<Pairing> treatments = with_margin(pair_treatments(group), plan);
+    json["treatment_contrasts"] = contrasts_json(group, treatments, plan);
+    json["condition_contrasts"] =
+        contrasts_json(group, with_margin(pair_conditions(group), plan), plan);
+    json["paired_contrasts"] = paired_contrasts_json(group, numbers_of(treatments), plan);
     return json;
 }
 

@@ -96,3 +96,12 @@ def escaped(text):
 
 def p_value(value):
     return "< 0.001" if value < 0.001 else f"{value:.3f}"
+
+
+def changes(settings):
+    """How arms differ from those that they are held against, from settings as "key=value"."""
+    words = []
+    for setting in settings:
+        key, value = setting.split("=", 1)
+        words.append(SOURCES[value] if key == "source" else f"{key} = {value}")
+    return ", ".join(words) or "conditions"

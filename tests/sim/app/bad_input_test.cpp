@@ -194,6 +194,15 @@ TEST_F(BadInputTest, OtherStudiesAndPathsOnExport) {
     expect_refusal(contrast("--measure", "f_d"), "no measure \"f_d\"; did you mean f_c?");
     expect_refusal(contrast("--margin", "0"), "the margin is not between 0 and 1");
     expect_refusal(contrast("--level", "2"), "the level is not between 0 and 1");
+    expect_refusal(contrast("--paired-csv", "none/paired.csv"),
+                   "none/paired.csv: cannot be written");
+    expect_refusal({"contrast", "runs.sqlite", "--against", "some", "--baseline", "radio.loss=0"},
+                   "--baseline excludes --against");
+    expect_refusal(contrast("--against", "some"), "--against: there is no arm \"some\" with runs");
+    expect_refusal(contrast("--over", "radio.los"),
+                   "--over: there is no setting \"radio.los\"; did you mean radio.loss?");
+    expect_refusal({"contrast", "runs.sqlite", "--csv", "-", "--paired-csv", "-"},
+                   "--csv and --paired-csv: only one of them can be -");
     expect_refusal(contrast("--baseline", "radio.los=0"),
                    "--baseline radio.los=0: radio.los: unknown key; did you mean radio.loss?");
     expect_refusal(contrast("--baseline", "radio.loss=0"), "no arm has one to be held against");

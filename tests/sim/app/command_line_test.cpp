@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 
 #include "program.hpp"
 #include "temporary_folder.hpp"
@@ -28,6 +31,15 @@ protected:
     }
     test::TemporaryFolder folder;
 };
+
+/// A CSV text of so many lines, each with as many commas.
+void expect_rectangular(const std::string& csv, std::ptrdiff_t lines) {
+    EXPECT_EQ(std::ranges::count(csv, '\n'), lines) << csv;
+    const auto commas = std::count(csv.begin(), std::ranges::find(csv, '\n'), ',');
+    std::istringstream stream(csv);
+    for (std::string line; std::getline(stream, line);)
+        EXPECT_EQ(std::ranges::count(line, ','), commas) << line;
+}
 
 TEST_F(CommandLineTest, HelpIsThereForEveryCommand) {
     EXPECT_THAT(output_of({"--help"}), HasSubstr("gene-clocks run --task navigation"));
@@ -191,14 +203,15 @@ TEST_F(CommandLineTest, ContrastHoldsArmsAgainstEachOther) {
     const std::string table = output_of({"contrast", store, "--csv", "contrast.csv"});
     EXPECT_THAT(table, HasSubstr("f_c against navigation-gene-clock"));
     EXPECT_THAT(table, HasSubstr("collection-timestamp"));
+    EXPECT_THAT(table, HasSubstr("navigation, source=timestamp"));
     const std::string csv = output_of({"contrast", store, "--csv", "-"});
     EXPECT_EQ(test::read_all(folder / "contrast.csv"), csv);
     EXPECT_THAT(csv, testing::StartsWith("measure,task,profile,arm,baseline,runs,"));
-    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2);
-    const std::string header = csv.substr(0, csv.find('\n'));
-    const std::string row = csv.substr(header.size() + 1, csv.find('\n', header.size() + 1));
-    EXPECT_EQ(std::count(header.begin(), header.end(), ','),
-              std::count(row.begin(), std::find(row.begin(), row.end(), '\n'), ','));
+    expect_rectangular(csv, 1 + 2);
+    const std::string paired = output_of({"contrast", store, "--paired-csv", "-"});
+    EXPECT_THAT(paired, testing::StartsWith("measure,task,profile,change,arms,seeds,"));
+    EXPECT_THAT(paired, HasSubstr("\nf_c,collection,gecco15,\"source=timestamp\",1,4,"));
+    expect_rectangular(paired, 1 + 2);
 }
 
 TEST_F(CommandLineTest, ReproduceLeavesAStoreAndAReport) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "input_error.hpp"
 #include "sample_input.hpp"
@@ -34,7 +35,7 @@ TEST(Contrast, HoldsEachSourceAgainstGeneClocksOfTheSameTask) {
                                   {.source = global_counter},
                                   {.task = collection, .parameters = "C"},
                                   {.task = collection, .source = timestamp, .parameters = "C"}});
-    const auto contrasts = contrast(input, {});
+    const auto contrasts = contrast(input, {}).arms;
     ASSERT_EQ(contrasts.size(), 3U);
     EXPECT_EQ(contrasts[0].arm, &input.arms[0]);
     EXPECT_EQ(contrasts[0].baseline, &input.arms[1]);
@@ -46,7 +47,7 @@ TEST(Contrast, HoldsEachSourceAgainstGeneClocksOfTheSameTask) {
 
 TEST(Contrast, OfTheSameRunsIsEquivalent) {
     const Input input = input_of({{.runs = 64}, {.source = timestamp, .runs = 64}});
-    const Contrast found = contrast(input, {}).front();
+    const Contrast found = contrast(input, {}).arms.front();
     EXPECT_EQ(found.pairs, 64U);
     EXPECT_EQ(found.identical, 64U);
     EXPECT_EQ(found.shift.estimate, 0.0);
@@ -59,7 +60,7 @@ TEST(Contrast, OfTheSameRunsIsEquivalent) {
 TEST(Contrast, OfRunsThatLieHigherIsDifferent) {
     const Input input = input_of(
         {{.runs = 40}, {.source = timestamp, .level = 190.0, .first_seed = 100, .runs = 40}});
-    const Contrast found = contrast(input, {}).front();
+    const Contrast found = contrast(input, {}).arms.front();
     EXPECT_EQ(found.pairs, 0U);
     EXPECT_GT(found.shift.interval.lower, found.margin);
     EXPECT_GT(found.effect, 0.95);
@@ -71,19 +72,19 @@ TEST(Contrast, OfRunsThatLieHigherIsDifferent) {
 TEST(Contrast, CanBeBothDifferentAndEquivalent) {
     const Input input = input_of(
         {{.runs = 200}, {.source = timestamp, .level = 164.0, .first_seed = 300, .runs = 200}});
-    EXPECT_EQ(contrast(input, {}).front().verdict, ContrastVerdict::small);
+    EXPECT_EQ(contrast(input, {}).arms.front().verdict, ContrastVerdict::small);
 }
 
 TEST(Contrast, OfFewRunsIsUndecided) {
     const Input input = input_of(
         {{.runs = 3}, {.source = timestamp, .level = 165.0, .first_seed = 300, .runs = 3}});
-    EXPECT_EQ(contrast(input, {}).front().verdict, ContrastVerdict::undecided);
+    EXPECT_EQ(contrast(input, {}).arms.front().verdict, ContrastVerdict::undecided);
 }
 
 TEST(Contrast, TakesTheMeasureAskedFor) {
     const Input input =
         input_of({{.runs = 9}, {.source = timestamp, .level = 170.0, .first_seed = 20, .runs = 8}});
-    const Contrast found = contrast(input, {.measure = "final_swarm_fitness"}).front();
+    const Contrast found = contrast(input, {.measure = "final_swarm_fitness"}).arms.front();
     const auto x = final_fitness(input.arms[1]);
     const auto y = final_fitness(input.arms[0]);
     EXPECT_EQ(found.runs, 8U);
@@ -107,7 +108,7 @@ TEST(Contrast, CorrectsOverTheArmsOfATask) {
                    .level = 161.0,
                    .first_seed = 200,
                    .runs = 20}});
-    const auto contrasts = contrast(input, {});
+    const auto contrasts = contrast(input, {}).arms;
     ASSERT_EQ(contrasts.size(), 5U);
     std::vector<double> family;
     for (std::size_t i = 0; i < 4; ++i) family.push_back(contrasts[i].difference_p_value);
@@ -129,7 +130,7 @@ TEST(Contrast, JudgesByCorrectedPValues) {
                       {.source = timestamp, .level = 161.0, .first_seed = 100, .runs = runs},
                       {.source = global_counter, .level = 165.0, .first_seed = 200, .runs = runs},
                       {.source = content_hash, .level = 169.0, .first_seed = 300, .runs = runs}});
-        for (const Contrast& found : contrast(input, {})) {
+        for (const Contrast& found : contrast(input, {}).arms) {
             using enum ContrastVerdict;
             const bool is_different = found.verdict == different || found.verdict == small;
             const bool is_equivalent = found.verdict == equivalent || found.verdict == small;
@@ -148,17 +149,41 @@ TEST(Contrast, FindsItsBaselineBySettings) {
     input.arms[1].settings.radio.loss = 0.5;
     input.arms[2].settings.radio.loss = 0.9;
     input.arms[3].settings.radio.loss = 0.9;
-    std::vector<std::string> without;
-    const auto by_loss = contrast(input, {.baseline = {"radio.loss=0"}}, &without);
+    const auto [by_loss, paired, without] = contrast(input, {.baseline = {"radio.loss=0"}});
     ASSERT_EQ(by_loss.size(), 2U);
     EXPECT_EQ(by_loss[0].arm, &input.arms[1]);
     EXPECT_EQ(by_loss[1].arm, &input.arms[2]);
     EXPECT_EQ(by_loss[0].baseline, &input.arms[0]);
     EXPECT_EQ(without, std::vector<std::string>{input.arms[3].name});
-    const auto by_both =
-        contrast(input, {.baseline = {"radio.loss=0", "source=gene-clock"}}, nullptr);
+    const auto by_both = contrast(input, {.baseline = {"radio.loss=0", "source=gene-clock"}}).arms;
     ASSERT_EQ(by_both.size(), 3U);
     EXPECT_EQ(by_both[2].baseline, &input.arms[0]);
+}
+
+TEST(Contrast, HoldsAllOfATaskAgainstANamedArm) {
+    const Input input = input_of({{},
+                                  {.source = timestamp},
+                                  {.parameters = "A"},
+                                  {.task = collection, .parameters = "C"},
+                                  {.task = collection, .source = timestamp, .parameters = "C"}});
+    const auto of_both =
+        contrast(input, {.against = {"navigation-B-timestamp", "collection-C-gene-clock"}});
+    ASSERT_EQ(of_both.arms.size(), 3U);
+    EXPECT_EQ(of_both.arms[0].arm, &input.arms[0]);
+    EXPECT_EQ(of_both.arms[0].baseline, &input.arms[1]);
+    EXPECT_EQ(of_both.arms[1].arm, &input.arms[2]);
+    EXPECT_EQ(of_both.arms[1].baseline, &input.arms[1]);
+    EXPECT_EQ(of_both.arms[2].arm, &input.arms[4]);
+    EXPECT_EQ(of_both.arms[2].baseline, &input.arms[3]);
+    EXPECT_TRUE(of_both.without_baseline.empty());
+    const auto of_one = contrast(input, {.against = {"navigation-B-timestamp"}});
+    EXPECT_EQ(of_one.arms.size(), 2U);
+    EXPECT_EQ(of_one.without_baseline.size(), 2U);
+    const auto refuses = [&](std::vector<std::string> against) {
+        EXPECT_THROW((void)contrast(input, {.against = std::move(against)}), InputError);
+    };
+    refuses({"navigation-B-timestamps"});
+    refuses({"navigation-B-timestamp", "navigation-A-gene-clock"});
 }
 
 TEST(Contrast, RefusesWhatCannotBeHeldAgainstAnything) {
@@ -169,6 +194,7 @@ TEST(Contrast, RefusesWhatCannotBeHeldAgainstAnything) {
     EXPECT_THROW((void)contrast(two, {.measure = "f_d"}), InputError);
     EXPECT_THROW((void)contrast(two, {.margin_share = 0.0}), InputError);
     EXPECT_THROW((void)contrast(two, {.level = 1.0}), InputError);
+    EXPECT_THROW((void)contrast(two, {.over = {"radio.los"}}), InputError);
     Input other_profile = two;
     other_profile.arms[1].profile = "mended";
     EXPECT_THROW((void)contrast(other_profile, {}), InputError);

@@ -155,6 +155,11 @@ class AnyReport:
                                 "equivalence_p_corrected", "power_equivalence", "identical"):
                         self.assertIn(f"{place}.{key}", paths)
                     found.append(contrast["verdict"])
+            for j, contrast in enumerate(group["paired_contrasts"]):
+                for key in ("seeds", "difference", "difference_p_corrected",
+                            "equivalence_p_corrected", "power_equivalence", "identical"):
+                    self.assertIn(f"groups.{i}.paired_contrasts.{j}.{key}", paths)
+                found.append(contrast["verdict"])
         self.assertEqual(re.findall(r"class=\"found-(\w+)\"", self.text), found)
 
     def test_every_arm_is_shown(self):

@@ -107,6 +107,33 @@ TEST(ReportData, GroupsReferToArmsAndHoldTheirContrasts) {
     EXPECT_EQ(row["identical"], 3);
     EXPECT_EQ(row["shift"], 0.0);
     EXPECT_EQ(row["verdict"], "undecided");  // three runs show nothing
+    ASSERT_EQ(group["paired_contrasts"].size(), 2U);
+    const Json& paired = group["paired_contrasts"].at(0);
+    EXPECT_EQ(paired["changes"], Json::parse(R"(["source=gene-clock-no-merge"])"));
+    EXPECT_EQ(paired["arms"], 3);
+    EXPECT_EQ(paired["seeds"], 3);
+    EXPECT_EQ(paired["identical"], 9);
+    EXPECT_EQ(paired["verdict"], "equivalent");
+}
+
+// Drift and offset are conditions, also of an arm without a counterpart of its own among gene
+// clocks.
+TEST(ReportData, PairedContrastsGoOverAllConditions) {
+    const Json data = report_data(sample_study("drift"));
+    const Json& paired = data["groups"].at(0)["paired_contrasts"];
+    ASSERT_EQ(paired.size(), 1U);
+    EXPECT_EQ(paired.at(0)["changes"], Json::parse(R"(["source=timestamp"])"));
+    EXPECT_EQ(paired.at(0)["arms"], 4);
+    // Of a study with one source, choices are what is compared.
+    const Json operators = report_data(sample_study("operators"));
+    std::vector<std::string> changes;
+    for (const Json& row : operators["groups"].at(0)["paired_contrasts"]) {
+        EXPECT_EQ(row["arms"], 2);
+        changes.push_back(row["changes"].dump());
+    }
+    EXPECT_EQ(changes, (std::vector<std::string>{
+                           R"(["odneat.mismatch=age"])", R"(["odneat.crossover=one-point"])",
+                           R"(["odneat.crossover=one-point","odneat.mismatch=age"])"}));
 }
 
 TEST(ReportData, AMedianOfZeroMakesNoContrast) {

@@ -90,6 +90,25 @@ holm <- do.call(rbind, lapply(names(families), function(name) {
              corrected = digits(p.adjust(families[[name]], "holm")))
 }))
 
+# Differences within pairs: one test of their mean, two one-sided ones, and an interval.
+differences <- list(
+  two = c(0.5, -2), around_zero = rnorm(12), above = rnorm(30, 0.8), below = rnorm(64, -5, 19),
+  far_above = rnorm(64, 60, 19), mostly_none = c(rep(0, 58), 12, -7.5, 30, -2, 0.25, -19),
+  large = rnorm(256, 1.9, 27), skewed = rexp(40) - 1
+)
+paired <- do.call(rbind, lapply(names(differences), function(name) {
+  d <- differences[[name]]
+  margin <- max(0.25, 0.3 * sd(d))
+  test <- t.test(d, conf.level = 0.9)
+  data.frame(
+    case = name, differences = digits(d), margin = sprintf("%.17g", margin),
+    mean = sprintf("%.17g", mean(d)), lower = sprintf("%.17g", test$conf.int[1]),
+    upper = sprintf("%.17g", test$conf.int[2]), p_value = sprintf("%.17g", test$p.value),
+    greater = sprintf("%.17g", t.test(d, mu = -margin, alternative = "greater")$p.value),
+    less = sprintf("%.17g", t.test(d, mu = margin, alternative = "less")$p.value)
+  )
+}))
+
 save <- function(frame, name) {
   write.csv(frame, file.path(folder, name), row.names = FALSE, quote = FALSE)
 }
@@ -97,3 +116,4 @@ save(mann_whitney, "mann_whitney.csv")
 save(equivalence, "equivalence.csv")
 save(holm, "holm.csv")
 save(quantiles, "quantiles.csv")
+save(paired, "paired.csv")

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "statistics/equivalence.hpp"
 #include "statistics/mann_whitney.hpp"
+#include "statistics/paired.hpp"
 #include "statistics/quantiles.hpp"
 
 namespace gene_clocks::statistics {
@@ -69,6 +72,24 @@ TEST(RVectors, ShiftsEqualWilcoxTest) {
             EXPECT_NEAR(shift.interval.lower, lower, tolerance) << row[0];
             EXPECT_NEAR(shift.interval.upper, upper, tolerance) << row[0];
         }
+    }
+}
+
+TEST(RVectors, PairedTestsEqualTTest) {
+    const auto rows = read_rows("paired.csv", 9);
+    ASSERT_GE(rows.size(), 8U);
+    for (const auto& row : rows) {
+        const PairedTest test = paired_test(numbers(row[1]), std::stod(row[2]), 0.9);
+        // R sums in higher precision, and 1e-12 of a mean near 0 is less than that shows.
+        const double tolerance = 1e-12 * (std::stod(row[5]) - std::stod(row[4]));
+        EXPECT_NEAR(test.mean, std::stod(row[3]), tolerance) << row[0];
+        EXPECT_NEAR(test.interval.lower, std::stod(row[4]), tolerance) << row[0];
+        EXPECT_NEAR(test.interval.upper, std::stod(row[5]), tolerance) << row[0];
+        const auto expect_p_value = [&](double value, double expected) {
+            EXPECT_NEAR(value, expected, 1e-10 * expected) << row[0];
+        };
+        expect_p_value(test.difference_p_value, std::stod(row[6]));
+        expect_p_value(test.equivalence_p_value, std::max(std::stod(row[7]), std::stod(row[8])));
     }
 }
 

@@ -1,0 +1,137 @@
+#include "contrast_tables.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iomanip>
+
+#include "choice_names.hpp"
+
+namespace gene_clocks::app {
+namespace {
+
+using experiment::name_of;
+using report::Contrast;
+using report::name_of;
+using report::PairedContrast;
+
+/// A p-value as a reader wants it: small ones by their order of magnitude.
+std::string p_text(double p_value) {
+    return p_value < 0.0005 ? fmt::format("{:.0e}", p_value) : fmt::format("{:.3f}", p_value);
+}
+
+/// A mean or shift with its interval, as in "+0.3 [-1.0, +1.6]".
+std::string interval_text(double value, const statistics::Interval& interval) {
+    return fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", value, interval.lower, interval.upper);
+}
+
+void print_row(const Contrast& row, std::size_t width) {
+    fmt::print("  {:<{}} {:>5} {:>9} {:>8.2f}  {:<17} {:<17} {:>7} {:>6} {:>6.2f}  {}\n",
+               row.arm->name, width, row.runs, fmt::format("{}/{}", row.identical, row.pairs),
+               row.median, interval_text(row.shift.estimate, row.shift.interval),
+               fmt::format("{:.2f} [{:.2f}, {:.2f}]", row.effect, row.effect_interval.lower,
+                           row.effect_interval.upper),
+               p_text(row.difference_p_corrected), p_text(row.equivalence_p_corrected),
+               row.power.equivalence, name_of(row.verdict));
+}
+
+void print_paired_row(const PairedContrast& row, std::size_t width, const std::string& change) {
+    fmt::print("  {:<{}} {:>5} {:>5} {:>11} {:>8.2f} {:>7.2f}  {:<19} {:>7} {:>6} {:>6.2f}  {}\n",
+               change, width, row.arms, row.seeds,
+               fmt::format("{}/{}", row.identical, row.arms * row.seeds), row.baseline_mean,
+               row.margin, interval_text(row.test.mean, row.test.interval),
+               p_text(row.difference_p_corrected), p_text(row.equivalence_p_corrected),
+               row.power.equivalence, name_of(row.verdict));
+}
+
+/// "source=timestamp"; where all that differs are conditions, just that.
+std::string change_text(const PairedContrast& row) {
+    return row.changes.empty() ? "conditions" : fmt::format("{}", fmt::join(row.changes, " "));
+}
+
+/// "navigation, source=timestamp"; with the profile where that varies.
+std::string title_of(const PairedContrast& row, bool with_profile) {
+    return fmt::format("{}{}{}, {}", name_of(row.family.first), with_profile ? ", " : "",
+                       with_profile ? row.family.second : "", change_text(row));
+}
+
+}  // namespace
+
+void write_csv(const std::vector<Contrast>& rows, const std::string& measure, std::ostream& out) {
+    fmt::print(out,
+               "measure,task,profile,arm,baseline,runs,baseline_runs,pairs,identical,median,"
+               "baseline_median,margin,shift,shift_lower,shift_upper,effect,effect_lower,"
+               "effect_upper,difference_p_value,difference_p_corrected,equivalence_p_value,"
+               "equivalence_p_corrected,power_equivalence,power_difference,verdict\n");
+    for (const Contrast& row : rows) {
+        fmt::print(out, "{},{},{},{},{},{},{},{},{},", measure,
+                   experiment::name_of(row.arm->settings.task), row.arm->profile, row.arm->name,
+                   row.baseline->name, row.runs, row.baseline_runs, row.pairs, row.identical);
+        fmt::print(out, "{},{},{},{},{},{},{},{},{},", row.median, row.baseline_median, row.margin,
+                   row.shift.estimate, row.shift.interval.lower, row.shift.interval.upper,
+                   row.effect, row.effect_interval.lower, row.effect_interval.upper);
+        fmt::print(out, "{},{},{},{},{},{},{}\n", row.difference_p_value,
+                   row.difference_p_corrected, row.equivalence_p_value, row.equivalence_p_corrected,
+                   row.power.equivalence, row.power.difference, name_of(row.verdict));
+    }
+}
+
+void write_csv(const std::vector<PairedContrast>& rows, const std::string& measure,
+               std::ostream& out) {
+    fmt::print(out,
+               "measure,task,profile,change,arms,seeds,identical,baseline_mean,margin,difference,"
+               "difference_lower,difference_upper,difference_p_value,difference_p_corrected,"
+               "equivalence_p_value,equivalence_p_corrected,power_equivalence,power_difference,"
+               "verdict\n");
+    for (const PairedContrast& row : rows) {
+        fmt::print(out, "{},{},{},{},{},{},{},{},{},", measure, name_of(row.family.first),
+                   row.family.second, fmt::streamed(std::quoted(change_text(row), '"', '"')),
+                   row.arms, row.seeds, row.identical, row.baseline_mean, row.margin);
+        fmt::print(out, "{},{},{},{},{},{},{},{},{},{}\n", row.test.mean, row.test.interval.lower,
+                   row.test.interval.upper, row.difference_p_value, row.difference_p_corrected,
+                   row.equivalence_p_value, row.equivalence_p_corrected, row.power.equivalence,
+                   row.power.difference, name_of(row.verdict));
+    }
+}
+
+void print_table(const std::vector<Contrast>& rows, const std::string& measure) {
+    std::size_t width = 3;
+    std::vector<const report::Arm*> baselines;  // in the order in which they are held against
+    for (const Contrast& row : rows) {
+        width = std::max(width, row.arm->name.size());
+        if (std::ranges::find(baselines, row.baseline) == baselines.end())
+            baselines.push_back(row.baseline);
+    }
+    for (const report::Arm* baseline : baselines) {
+        const Contrast& first = *std::ranges::find(rows, baseline, &Contrast::baseline);
+        fmt::print("{}{} against {} (median {:.2f}, {} runs; margin {:.2f})\n",
+                   baseline == baselines.front() ? "" : "\n", measure, baseline->name,
+                   first.baseline_median, first.baseline_runs, first.margin);
+        fmt::print("  {:<{}} {:>5} {:>9} {:>8}  {:<17} {:<17} {:>7} {:>6} {:>6}  {}\n", "arm",
+                   width, "runs", "identical", "median", "shift [95 %]", "A [95 %]", "p diff.",
+                   "p eq.", "power", "verdict");
+        for (const Contrast& row : rows) {
+            if (row.baseline == baseline) print_row(row, width);
+        }
+    }
+}
+
+void print_table(const std::vector<PairedContrast>& rows, const std::string& measure) {
+    if (rows.empty()) return;
+    const bool with_profile = std::ranges::any_of(rows, [&](const PairedContrast& row) {
+        return row.family.second != rows.front().family.second;
+    });
+    std::size_t width = 3;
+    for (const PairedContrast& row : rows)
+        width = std::max(width, title_of(row, with_profile).size());
+    fmt::print("\n{} seed by seed, over all arms that change their baselines alike\n", measure);
+    fmt::print("  {:<{}} {:>5} {:>5} {:>11} {:>8} {:>7}  {:<19} {:>7} {:>6} {:>6}  {}\n", "change",
+               width, "arms", "seeds", "identical", "baseline", "margin", "difference [95 %]",
+               "p diff.", "p eq.", "power", "verdict");
+    for (const PairedContrast& row : rows)
+        print_paired_row(row, width, title_of(row, with_profile));
+}
+
+}  // namespace gene_clocks::app

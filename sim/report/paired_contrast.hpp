@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "comparison.hpp"
+#include "contrast_plan.hpp"
+#include "statistics/paired.hpp"
+
+namespace gene_clocks::report {
+
+/// Arms that differ from their baselines in the same way, held against them seed by seed and over
+/// all conditions together: what a sweep as a whole says of that difference.
+///
+/// A seed's difference is the mean, over the arms, of the arm's value above its baseline's. Those
+/// of two seeds are independent, whatever the runs of one seed have in common; so the tests ask
+/// more of fewer assumptions than those of single arms, and find more.
+struct PairedContrast {
+    Family family;
+    std::vector<std::string> changes;  ///< the settings that differ, as in "source=timestamp"
+    std::size_t arms{};                ///< that differ in that way, each with its baseline
+    std::size_t seeds{};               ///< that all of them and their baselines hold
+    std::size_t identical{};  ///< of arms × seeds pairs of runs, those with the same trajectory
+    double baseline_mean{};   ///< over baselines and seeds
+    double margin{};          ///< the plan's share of the mean of the baselines' medians
+    statistics::PairedTest test;       ///< of the seeds' differences
+    double difference_p_value{};       ///< of `test`
+    double difference_p_corrected{};   ///< Holm, over the paired contrasts of the same family
+    double equivalence_p_value{};      ///< of `test`
+    double equivalence_p_corrected{};  ///< likewise
+    statistics::Power power;           ///< of the uncorrected tests, at the margin
+    ContrastVerdict verdict{};
+};
+
+Family family_of(const PairedContrast& contrast);
+
+/// In the order in which the pairs first change something that way. Left out is what has fewer than
+/// two seeds. Throws experiment::InputError where the plan or the runs are unfit.
+std::vector<PairedContrast> paired_contrasts(std::span<const ContrastPair> pairs,
+                                             const ContrastPlan& plan);
+
+}  // namespace gene_clocks::report
