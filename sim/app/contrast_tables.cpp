@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 
 #include "choice_names.hpp"
@@ -24,7 +25,11 @@ std::string p_text(double p_value) {
 
 /// A mean or shift with its interval, as in "+0.3 [-1.0, +1.6]".
 std::string interval_text(double value, const statistics::Interval& interval) {
-    return fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", value, interval.lower, interval.upper);
+    const auto rounded = [](double number) {
+        return std::round(number * 10.0) / 10.0 + 0.0;
+    };  // no -0
+    return fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", rounded(value), rounded(interval.lower),
+                       rounded(interval.upper));
 }
 
 void print_row(const Contrast& row, std::size_t width) {

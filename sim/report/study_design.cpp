@@ -23,8 +23,16 @@ const sim::Settings& settings_of(const GroupArm& arm) {
     return arm.numbers->arm->settings;
 }
 
-/// What varies but for task and source. Numbers first, each kind in the table's order, since the
-/// first of settings that are linked names them.
+/// How much a setting says of those that are linked with it: a count more than a measure, which may
+/// be derived from one, and either more than a choice.
+int telling(const Setting* setting) {
+    const Value value = setting->default_value();
+    if (std::holds_alternative<std::int64_t>(value)) return 0;
+    return is_number(value) ? 1 : 2;
+}
+
+/// What varies but for task and source. The most telling first, each kind in the table's order,
+/// since the first of settings that are linked names them.
 std::vector<const Setting*> varied_settings(const Group& group) {
     std::set<std::string> keys;
     for (const GroupArm& arm : group.arms) {
@@ -39,8 +47,7 @@ std::vector<const Setting*> varied_settings(const Group& group) {
     for (const Setting& setting : experiment::settings_table()) {
         if (keys.contains(setting.key)) varied.push_back(&setting);
     }
-    std::ranges::stable_partition(
-        varied, [](const Setting* setting) { return is_number(setting->default_value()); });
+    std::ranges::stable_sort(varied, {}, telling);
     return varied;
 }
 

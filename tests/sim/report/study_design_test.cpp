@@ -134,6 +134,18 @@ TEST(StudyDesign, SettingsThatGoAlongAreOneFactor) {
     EXPECT_EQ(group.factors[0].base, 1U);  // 100 robots, as the profile has it
 }
 
+// Whichever of them comes first in the table of settings.
+TEST(StudyDesign, ACountNamesWhatGoesAlongWithIt) {
+    const Input input = input_of(
+        {short_arm(navigation, gene_clock, {"world.arena_scale=0.5", "world.robots=25"}),
+         short_arm(navigation, gene_clock, {"world.arena_scale=1.0", "world.robots=100"})});
+    const auto comparisons = compare(input);
+    const Group group = groups_of(comparisons).front();
+    ASSERT_EQ(group.factors.size(), 1U);
+    EXPECT_EQ(keys_of(group.factors[0]),
+              (std::vector<std::string>{"world.robots", "world.arena_scale"}));
+}
+
 TEST(StudyDesign, LevelsOfNumbersAscendAndTheFirstArmIsTheBaseWhereNoneIsUsual) {
     std::vector<Arm> arms;
     for (const char* loss : {"radio.loss=0.9", "radio.loss=0.1", "radio.loss=0.5"})
