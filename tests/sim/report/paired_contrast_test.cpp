@@ -91,8 +91,9 @@ TEST(PairedContrast, SeesWhatTestsOfSingleArmsCannot) {
 
 TEST(PairedContrast, TakesOnlySeedsThatAllArmsHold) {
     Input input = sweep({0.0, 0.0}, 6);
-    input.arms[0].runs.erase(input.arms[0].runs.begin());  // a baseline lacks seed 1
-    input.arms[3].runs.pop_back();                         // an arm lacks seed 6
+    input.arms[0].runs.erase(input.arms[0].runs.begin());  // a baseline lacks seed 1,
+    input.arms[3].runs.erase(input.arms[3].runs.begin());  // as an arm does,
+    input.arms[3].runs.pop_back();                         // which lacks seed 6, too
     const auto paired = contrast(input, {}).paired;
     ASSERT_EQ(paired.size(), 1U);
     EXPECT_EQ(paired[0].seeds, 4U);
