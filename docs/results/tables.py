@@ -219,13 +219,18 @@ tables_of("operators", "operators", [NAME, FITNESS, MATINGS, *TESTS])
 tables_of("equal-weights", "equal-weights", [NAME, FITNESS, *BRIEFLY])
 tables_of("markings-other-profiles", "other profiles", [NAME, FITNESS, *TESTS])
 
+def tested(text):
+    return lambda row: "–" if row["verdict"] == "identical" else text(row)
+
+
 def paired_of(study):
     """The table "paired STUDY": what a sweep says as a whole, seed by seed."""
     rows = read(f"{study}.paired.csv")
     several_tasks = len({row["task"] for row in rows}) > 1
     several_profiles = len({row["profile"] for row in rows}) > 1
     columns = [
-        ("change", lambda row: f"`{row['change']}`"),
+        ("change", lambda row: f"`{row['first_arm']}`" if row["arms"] == "1" and
+         " " in row["change"] else f"`{row['change']}`"),
         ("arms × seeds", lambda row: f"{row['arms']} × {row['seeds']}"),
         ("identical runs", lambda row: number(100 * int(row["identical"]) /
                                               (int(row["arms"]) * int(row["seeds"])), 0) + " %"),
@@ -233,9 +238,9 @@ def paired_of(study):
         ("difference [95 %]", lambda row: (
             f"{signed(float(row['difference']), 1)} [{signed(float(row['difference_lower']), 1)}, "
             f"{signed(float(row['difference_upper']), 1)}]")),
-        ("*p* difference", lambda row: p_value(row["difference_p_corrected"])),
-        ("*p* equivalence", lambda row: p_value(row["equivalence_p_corrected"])),
-        ("power", lambda row: f"{float(row['power_equivalence']):.2f}"),
+        ("*p* difference", tested(lambda row: p_value(row["difference_p_corrected"]))),
+        ("*p* equivalence", tested(lambda row: p_value(row["equivalence_p_corrected"]))),
+        ("power", tested(lambda row: f"{float(row['power_equivalence']):.2f}")),
         ("verdict", lambda row: row["verdict"]),
     ]
     if several_profiles:

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
-#include <iostream>
 #include <memory>
+#include <optional>
 
 #include "commands.hpp"
 #include "contrast.hpp"
 #include "contrast_tables.hpp"
-#include "input_error.hpp"
 #include "output_file.hpp"
 #include "study_report.hpp"
 
@@ -22,32 +21,23 @@ struct Options {
     std::string paired_csv;
 };
 
-/// Writes to a file, or to standard output for "-".
-template <typename Write>
-void write_to(const std::string& path, Write&& write) {
-    if (path.empty()) return;
-    if (path == "-") {
-        write(std::cout);
-        return;
-    }
-    OutputFile file(path);
-    write(file.stream());
-    file.finish();
-}
-
 int run(Options options) {
     if (!options.baseline.empty()) options.plan.baseline = options.baseline;
-    if (options.csv == "-" && options.paired_csv == "-")
-        throw experiment::InputError("--csv and --paired-csv: only one of them can be -");
+    require_different({{"--csv", options.csv}, {"--paired-csv", options.paired_csv}});
     const report::Input input = read_input(options.store, options.studies);
     const report::Contrasts contrasts = report::contrast(input, options.plan);
-    for (const std::string& name : contrasts.without_baseline) {
-        fmt::print(stderr, "{}: there is no arm to hold it against; left out\n", name);
-    }
     const std::string& measure = options.plan.measure;
-    write_to(options.csv, [&](std::ostream& out) { write_csv(contrasts.arms, measure, out); });
-    write_to(options.paired_csv,
-             [&](std::ostream& out) { write_csv(contrasts.paired, measure, out); });
+    std::optional<Output> csv;
+    std::optional<Output> paired_csv;
+    if (!options.csv.empty()) csv.emplace(options.csv);
+    if (!options.paired_csv.empty()) paired_csv.emplace(options.paired_csv);
+    for (const std::string& what : contrasts.left_out) {
+        fmt::print(stderr, "{}; left out\n", what);
+    }
+    if (csv) write_csv(contrasts.arms, measure, csv->stream());
+    if (paired_csv) write_csv(contrasts.paired, measure, paired_csv->stream());
+    if (csv) csv->finish();
+    if (paired_csv) paired_csv->finish();
     if (options.csv == "-" || options.paired_csv == "-") return success;
     print_table(contrasts.arms, measure);
     print_table(contrasts.paired, measure);
@@ -66,6 +56,7 @@ void add_contrast_command(CLI::App& app, int& status) {
     command
         ->add_option("--study", options->studies,
                      "Only this study; may be repeated. Without it all")
+        ->allow_extra_args(false)
         ->type_name("NAME");
     auto* baseline =
         command
@@ -73,11 +64,13 @@ void add_contrast_command(CLI::App& app, int& status) {
                 "--baseline", options->baseline,
                 "An arm is held against the one whose settings are its own but for this; may "
                 "be repeated. Without it source=gene-clock")
+            ->allow_extra_args(false)
             ->type_name("KEY=VALUE");
     command
         ->add_option("--against", options->plan.against,
                      "An arm by name: all others of its task and profile are held against it; may "
                      "be repeated, once for each of these")
+        ->allow_extra_args(false)
         ->type_name("ARM")
         ->excludes(baseline);
     command->add_option("--measure", options->plan.measure, "What is compared")
@@ -95,6 +88,7 @@ void add_contrast_command(CLI::App& app, int& status) {
         ->add_option("--over", options->plan.over,
                      "A setting that is a condition: the paired tests put arms together that "
                      "differ from their baselines in it, and otherwise alike; may be repeated")
+        ->allow_extra_args(false)
         ->type_name("KEY");
     command
         ->add_option("--csv", options->csv, "CSV file, a line for each arm; - for standard output")

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 
 #include "choice_names.hpp"
@@ -23,19 +22,22 @@ std::string p_text(double p_value) {
     return p_value < 0.0005 ? fmt::format("{:.0e}", p_value) : fmt::format("{:.3f}", p_value);
 }
 
-/// A mean or shift with its interval, as in "+0.3 [-1.0, +1.6]".
-std::string interval_text(double value, const statistics::Interval& interval) {
-    const auto rounded = [](double number) {
-        return std::round(number * 10.0) / 10.0 + 0.0;
-    };  // no -0
-    return fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", rounded(value), rounded(interval.lower),
-                       rounded(interval.upper));
+/// A mean or shift with its interval, as in "+0.3 [-1.0, +1.6]": with as many decimals as it takes
+/// to tell it from the margin.
+std::string interval_text(double value, const statistics::Interval& interval, double margin) {
+    const int decimals = margin >= 1.0 ? 1 : 3;
+    const auto text = [&](double number) {
+        const std::string rounded = fmt::format("{:+.{}f}", number, decimals);
+        const bool is_zero = rounded.find_first_not_of("+-0.") == std::string::npos;
+        return is_zero ? fmt::format("+{:.{}f}", 0.0, decimals) : rounded;
+    };
+    return fmt::format("{} [{}, {}]", text(value), text(interval.lower), text(interval.upper));
 }
 
 void print_row(const Contrast& row, std::size_t width) {
     fmt::print("  {:<{}} {:>5} {:>9} {:>8.2f}  {:<17} {:<17} {:>7} {:>6} {:>6.2f}  {}\n",
                row.arm->name, width, row.runs, fmt::format("{}/{}", row.identical, row.pairs),
-               row.median, interval_text(row.shift.estimate, row.shift.interval),
+               row.median, interval_text(row.shift.estimate, row.shift.interval, row.margin),
                fmt::format("{:.2f} [{:.2f}, {:.2f}]", row.effect, row.effect_interval.lower,
                            row.effect_interval.upper),
                p_text(row.difference_p_corrected), p_text(row.equivalence_p_corrected),
@@ -43,12 +45,15 @@ void print_row(const Contrast& row, std::size_t width) {
 }
 
 void print_paired_row(const PairedContrast& row, std::size_t width, const std::string& change) {
-    fmt::print("  {:<{}} {:>5} {:>5} {:>11} {:>8.2f} {:>7.2f}  {:<19} {:>7} {:>6} {:>6.2f}  {}\n",
-               change, width, row.arms, row.seeds,
-               fmt::format("{}/{}", row.identical, row.arms * row.seeds), row.baseline_mean,
-               row.margin, interval_text(row.test.mean, row.test.interval),
-               p_text(row.difference_p_corrected), p_text(row.equivalence_p_corrected),
-               row.power.equivalence, name_of(row.verdict));
+    const auto tested = [&](const std::string& text) {
+        return row.verdict == report::ContrastVerdict::identical ? "-" : text;
+    };
+    fmt::print(
+        "  {:<{}} {:>5} {:>5} {:>11} {:>8.2f} {:>7.2f}  {:<19} {:>7} {:>6} {:>6}  {}\n", change,
+        width, row.arms, row.seeds, fmt::format("{}/{}", row.identical, row.arms * row.seeds),
+        row.baseline_mean, row.margin, interval_text(row.test.mean, row.test.interval, row.margin),
+        tested(p_text(row.difference_p_corrected)), tested(p_text(row.equivalence_p_corrected)),
+        tested(fmt::format("{:.2f}", row.power.equivalence)), name_of(row.verdict));
 }
 
 /// "source=timestamp"; where all that differs are conditions, just that.
@@ -56,8 +61,10 @@ std::string change_text(const PairedContrast& row) {
     return row.changes.empty() ? "conditions" : fmt::format("{}", fmt::join(row.changes, " "));
 }
 
-/// "navigation, source=timestamp"; with the profile where that varies.
+/// "navigation, source=timestamp", with the profile where that varies; an arm that differs from its
+/// baseline in much, and is alone in that, is told by its name.
 std::string title_of(const PairedContrast& row, bool with_profile) {
+    if (row.arms == 1 && row.changes.size() > 1) return row.first_arm->name;
     return fmt::format("{}{}{}, {}", name_of(row.family.first), with_profile ? ", " : "",
                        with_profile ? row.family.second : "", change_text(row));
 }
@@ -86,14 +93,16 @@ void write_csv(const std::vector<Contrast>& rows, const std::string& measure, st
 void write_csv(const std::vector<PairedContrast>& rows, const std::string& measure,
                std::ostream& out) {
     fmt::print(out,
-               "measure,task,profile,change,arms,seeds,identical,baseline_mean,margin,difference,"
+               "measure,task,profile,change,first_arm,arms,seeds,identical,baseline_mean,margin,"
+               "difference,"
                "difference_lower,difference_upper,difference_p_value,difference_p_corrected,"
                "equivalence_p_value,equivalence_p_corrected,power_equivalence,power_difference,"
                "verdict\n");
     for (const PairedContrast& row : rows) {
-        fmt::print(out, "{},{},{},{},{},{},{},{},{},", measure, name_of(row.family.first),
+        fmt::print(out, "{},{},{},{},{},{},{},{},{},{},", measure, name_of(row.family.first),
                    row.family.second, fmt::streamed(std::quoted(change_text(row), '"', '"')),
-                   row.arms, row.seeds, row.identical, row.baseline_mean, row.margin);
+                   row.first_arm->name, row.arms, row.seeds, row.identical, row.baseline_mean,
+                   row.margin);
         fmt::print(out, "{},{},{},{},{},{},{},{},{},{}\n", row.test.mean, row.test.interval.lower,
                    row.test.interval.upper, row.difference_p_value, row.difference_p_corrected,
                    row.equivalence_p_value, row.equivalence_p_corrected, row.power.equivalence,

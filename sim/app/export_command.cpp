@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
-#include <functional>
-#include <iostream>
 #include <memory>
-#include <stdexcept>
+#include <optional>
 
 #include "commands.hpp"
 #include "csv_export.hpp"
@@ -25,23 +23,11 @@ struct Options {
     std::string samples;
 };
 
-/// "-" is standard output.
-void write_file(const std::string& name, const std::function<void(std::ostream&)>& write) {
-    if (name == "-") {
-        write(std::cout);
-        std::cout.flush();
-        if (!std::cout) throw std::runtime_error("standard output cannot be written");
-        return;
-    }
-    OutputFile file(name);
-    write(file.stream());
-    file.finish();
-}
-
 int run(const Options& options) {
     if (options.runs.empty() && options.samples.empty()) {
         throw InputError("nothing to export: give --runs FILE, --samples FILE, or both");
     }
+    require_different({{"--runs", options.runs}, {"--samples", options.samples}});
     const Store store = Store::open_for_reading(options.store);
     std::vector<StoredStudy> studies;
     if (options.study.empty()) {
@@ -49,13 +35,14 @@ int run(const Options& options) {
     } else {
         studies.push_back(store.study(options.study));
     }
-    if (!options.runs.empty()) {
-        write_file(options.runs, [&](std::ostream& out) { write_runs_csv(store, studies, out); });
-    }
-    if (!options.samples.empty()) {
-        write_file(options.samples,
-                   [&](std::ostream& out) { write_samples_csv(store, studies, out); });
-    }
+    std::optional<Output> runs;
+    std::optional<Output> samples;
+    if (!options.runs.empty()) runs.emplace(options.runs);
+    if (!options.samples.empty()) samples.emplace(options.samples);
+    if (runs) write_runs_csv(store, studies, runs->stream());
+    if (samples) write_samples_csv(store, studies, samples->stream());
+    if (runs) runs->finish();
+    if (samples) samples->finish();
     return success;
 }
 

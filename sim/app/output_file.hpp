@@ -2,6 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 
 namespace gene_clocks::app {
 
@@ -26,5 +31,26 @@ private:
     std::filesystem::path unfinished_;  ///< empty once renamed
     std::ofstream stream_;
 };
+
+/// An output file, or standard output for the name "-".
+class Output {
+public:
+    /// Throws as OutputFile does.
+    explicit Output(const std::string& name);
+
+    std::ostream& stream();
+
+    /// Throws std::runtime_error where not all of it could be written.
+    void finish();
+
+private:
+    std::optional<OutputFile> file_;  ///< none: standard output
+};
+
+/// An option of the command line and the file it names; "-" is standard output, "" none.
+using NamedOutput = std::pair<std::string_view, std::string>;
+
+/// Throws InputError where two of them would go to one place, however that is written.
+void require_different(std::initializer_list<NamedOutput> outputs);
 
 }  // namespace gene_clocks::app

@@ -34,6 +34,7 @@ void add_report_command(CLI::App& app, int& status) {
     command
         ->add_option("--study", options->studies,
                      "Only this study; may be repeated. Without it all")
+        ->allow_extra_args(false)
         ->type_name("NAME");
     command
         ->add_option("--output", options->output,

@@ -21,6 +21,10 @@ struct SelectionOptions {
     /// Adds the options to a command; `this` must live as long as it.
     void add_to(CLI::App& command);
 
+    /// Whether all of them are as they were.
+    [[nodiscard]] bool is_untouched() const { return *this == SelectionOptions{}; }
+    bool operator==(const SelectionOptions&) const = default;
+
     /// Throws InputError where one is unknown.
     [[nodiscard]] experiment::Selection selection() const;
 

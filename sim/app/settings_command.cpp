@@ -36,7 +36,22 @@ void print_builtin(const std::string& path) {
                                  experiment::suggestion(path, paths), experiment::list_of(paths)));
 }
 
+/// A list of all keys has their defaults, whatever was selected, and a run's settings are all.
+void refuse_what_has_no_effect(const Options& options, bool is_list) {
+    if (is_list && !options.selection.is_untouched()) {
+        throw InputError("--format " + options.format +
+                         ": lists all keys with their defaults; a run's settings are shown by "
+                         "--format toml or json");
+    }
+    if (!options.keys.empty() && (!is_list || options.format == "markdown")) {
+        throw InputError(options.keys.front() + ": --format " + options.format +
+                         " shows all settings; only text can be of some");
+    }
+}
+
 int run(const Options& options) {
+    const bool is_list = options.format == "text" || options.format == "markdown";
+    if (options.builtin.empty()) refuse_what_has_no_effect(options, is_list);
     if (!options.builtin.empty()) {
         print_builtin(options.builtin);
     } else if (options.format == "text") {

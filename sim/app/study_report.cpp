@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "report.hpp"
@@ -17,7 +19,10 @@ using experiment::StoredStudy;
 std::vector<StoredStudy> named_studies(const Store& store, const std::vector<std::string>& names) {
     if (names.empty()) return store.studies();
     std::vector<StoredStudy> studies;
-    for (const std::string& name : names) studies.push_back(store.study(name));
+    std::set<std::string> known;
+    for (const std::string& name : names) {
+        if (known.insert(name).second) studies.push_back(store.study(name));
+    }
     return studies;
 }
 
@@ -35,6 +40,8 @@ report::Arm arm_of(const Store& store, const StoredStudy& study,
 report::Input read_input(const std::filesystem::path& file, const std::vector<std::string>& names) {
     const Store store = Store::open_for_reading(file);
     report::Input input;
+    // By settings and profile: what several studies have in common is one arm, with the most runs.
+    std::map<std::pair<std::string, std::string>, std::size_t> arms;
     input.program_version = experiment::program_version();
     for (const StoredStudy& study : named_studies(store, names)) {
         if (input.study.empty()) {
@@ -43,8 +50,16 @@ report::Input read_input(const std::filesystem::path& file, const std::vector<st
         } else {
             input.title += "; " + study.title;
         }
-        for (const experiment::StoredArm& arm : study.arms) {
-            input.arms.push_back(arm_of(store, study, arm));
+        for (const experiment::StoredArm& stored : study.arms) {
+            report::Arm arm = arm_of(store, study, stored);
+            const auto [known, is_new] =
+                arms.emplace(std::pair(stored.settings_hash, stored.profile), input.arms.size());
+            if (is_new) {
+                input.arms.push_back(std::move(arm));
+            } else if (report::Arm& other = input.arms[known->second];
+                       arm.runs.size() > other.runs.size()) {
+                other.runs = std::move(arm.runs);
+            }
         }
     }
     return input;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -14,6 +15,9 @@ namespace gene_clocks::experiment {
 namespace {
 
 constexpr std::uintmax_t file_bytes_maximum = 4U << 20U;
+/// A key with as many parts, a.b.c.…, makes tables as deep, which are taken down by recursion. A
+/// line that has no such key has a dot in each real number, of which a list may have 10 000.
+constexpr std::ptrdiff_t line_dots_maximum = 10'000;
 
 std::string read_file(const std::filesystem::path& file) {
     std::error_code error;
@@ -71,10 +75,23 @@ InputError type_error(const toml::node& node, const Place& place, const std::str
     return key_error(place, key, fmt::format("expected {}, found {}", expected, type_name(node)));
 }
 
+void refuse_deep_keys(const Document& document) {
+    std::istringstream stream(document.text);
+    std::uint32_t number = 0;
+    for (std::string line; std::getline(stream, line);) {
+        ++number;
+        if (std::ranges::count(line, '.') > line_dots_maximum) {
+            throw InputError(Place{document.name, number}.prefix() + "a line with more than " +
+                             std::to_string(line_dots_maximum) + " dots");
+        }
+    }
+}
+
 }  // namespace
 
 Document parse_document(std::string text, std::string name, std::filesystem::path directory) {
     Document document{std::move(name), std::move(directory), std::move(text), {}};
+    refuse_deep_keys(document);
     try {
         document.table = toml::parse(document.text, document.name);
     } catch (const toml::parse_error& error) {

@@ -72,6 +72,22 @@ auto located(const Place& place, Function function) {
     }
 }
 
+/// Where the arm's file gives a key, as in "profile" or "world.arena"; `otherwise` where it does
+/// not.
+Place place_of_key(const Document& document, std::string_view key, const ArmPlan& plan,
+                   const Common& common, const Place& otherwise) {
+    for (const KeyedNode& node : plan.values) {
+        if (node.key == key) return node.place;
+    }
+    if (common.settings != nullptr) {
+        for (const KeyedNode& node : flatten(document, *common.settings)) {
+            if (node.key == key) return node.place;
+        }
+    }
+    const toml::node* of_all = document.table.get(key);
+    return of_all != nullptr ? document.place_of(*of_all) : otherwise;
+}
+
 Arm read_arm(const Document& document, const Place& place, const ArmPlan& plan,
              const Common& common, const StudyOptions& options) {
     Arm arm;
@@ -83,8 +99,16 @@ Arm read_arm(const Document& document, const Place& place, const ArmPlan& plan,
         if (!read_selection(document, node, selection)) own_settings.push_back(node);
     }
     arm.profile = selection.profile;
-    arm.parameters = located(place, [&] { return parameter_set_of(selection); });
-    arm.settings = located(place, [&] { return select(selection); });
+    const auto place_of = [&](std::string_view key) {
+        return place_of_key(document, key, plan, common, place);
+    };
+    // Whatever is wrong with the profile is found here, what is wrong with the parameters there.
+    arm.parameters = located(place_of("profile"), [&] {
+        find_document(Builtin::profile, selection.profile);
+        return parameter_set_of(selection);
+    });
+    arm.settings = located(place_of(selection.parameters ? "parameters" : "profile"),
+                           [&] { return select(selection); });
     if (common.settings != nullptr) read_settings(document, *common.settings, arm.settings);
     for (const KeyedNode& node : own_settings) read_setting(document, node, arm.settings);
     if (common.quick_settings != nullptr) {
@@ -92,7 +116,8 @@ Arm read_arm(const Document& document, const Place& place, const ArmPlan& plan,
     }
     for (const std::string& assignment : options.assignments) assign(arm.settings, assignment);
     check_together(arm.settings, {fmt::format("{}arm {}", place.prefix(), arm.name)});
-    arm.arena = located(place, [&] { return find_arena(arm.settings.world.arena); });
+    arm.arena =
+        located(place_of("world.arena"), [&] { return find_arena(arm.settings.world.arena); });
     arm.canonical = canonical_text(arm.settings, arm.arena);
     arm.settings_hash = hash_of(arm.canonical);
     return arm;
@@ -125,6 +150,9 @@ Study read_study(const Document& document, const StudyOptions& options) {
             study.title += " (quick)";
             study.seeds = seeds.value_or(study.seeds);
             common.quick_settings = settings;
+        } else if (settings != nullptr) {
+            sim::Settings unused;
+            read_settings(document, *settings, unused);  // refuses what --quick would
         }
     } else if (options.quick) {
         throw InputError(document.name + ": has no section [quick]");

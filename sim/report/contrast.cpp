@@ -64,8 +64,7 @@ Contrasts contrast(const Input& input, const ContrastPlan& plan) {
     check(plan);
     const std::vector<ArmNumbers> all = arm_numbers(input);
     Contrasts contrasts;
-    const std::vector<ContrastPair> pairs =
-        pair_with_baselines(all, plan, contrasts.without_baseline);
+    const std::vector<ContrastPair> pairs = pair_with_baselines(all, plan, contrasts.left_out);
     if (pairs.empty()) {
         std::string what =
             fmt::format("study \"{}\": no arm has one to be held against", input.study);
@@ -73,10 +72,11 @@ Contrasts contrast(const Input& input, const ContrastPlan& plan) {
             what += fmt::format(", which would differ from it in {} alone",
                                 fmt::join(plan.baseline, ", "));
         }
+        if (!contrasts.left_out.empty()) what += "; " + contrasts.left_out.front();
         throw InputError(what);
     }
     contrasts.arms = contrast_pairs(pairs, plan);
-    contrasts.paired = paired_contrasts(pairs, plan);
+    contrasts.paired = paired_contrasts(pairs, plan, &contrasts.left_out);
     return contrasts;
 }
 

@@ -50,8 +50,7 @@ std::vector<Contrast> contrast_pairs(std::span<const ContrastPair> pairs, const 
 struct Contrasts {
     std::vector<Contrast> arms;          ///< in the order of the arms
     std::vector<PairedContrast> paired;  ///< of the same arms, put together by what they change
-    std::vector<std::string>
-        without_baseline;  ///< names of arms left out: their baseline has no runs
+    std::vector<std::string> left_out;   ///< what of the study's arms is in neither, and why
 };
 
 /// Holds every arm with runs against its baseline. Refers to the arms of `input`.

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 
 #include "input_error.hpp"
 #include "measures.hpp"
 #include "settings_io.hpp"
 #include "settings_table.hpp"
+#include "statistics/quantiles.hpp"
 #include "suggestion.hpp"
 
 namespace gene_clocks::report {
@@ -39,6 +41,10 @@ std::map<Family, const ArmNumbers*> named_baselines(const std::vector<ArmNumbers
         if (place == names.end()) {
             throw InputError(fmt::format("--against: there is no arm \"{}\" with runs{}", name,
                                          experiment::suggestion(name, names)));
+        }
+        if (std::ranges::count(names, name) > 1) {
+            throw InputError(fmt::format(
+                "--against: several studies have an arm \"{}\"; choose one by --study", name));
         }
         const ArmNumbers& numbers = all[static_cast<std::size_t>(place - names.begin())];
         const auto [known, is_new] = baselines.emplace(family_of(*numbers.arm), &numbers);
@@ -91,9 +97,11 @@ std::string_view name_of(ContrastVerdict verdict) {
         case ContrastVerdict::different:
             return "different";
         case ContrastVerdict::undecided:
-            break;
+            return "undecided";
+        case ContrastVerdict::identical:
+            return "identical";
     }
-    return "undecided";
+    throw std::logic_error("unknown verdict");
 }
 
 ContrastVerdict verdict_of(double difference_p_value, double equivalence_p_value, double level) {
@@ -105,7 +113,7 @@ ContrastVerdict verdict_of(double difference_p_value, double equivalence_p_value
 
 std::vector<ContrastPair> pair_with_baselines(const std::vector<ArmNumbers>& all,
                                               const ContrastPlan& plan,
-                                              std::vector<std::string>& without_baseline) {
+                                              std::vector<std::string>& left_out) {
     const std::map<Family, const ArmNumbers*> named = named_baselines(all, plan);
     std::vector<ContrastPair> pairs;
     for (const ArmNumbers& numbers : all) {
@@ -114,12 +122,22 @@ std::vector<ContrastPair> pair_with_baselines(const std::vector<ArmNumbers>& all
                                      : named.empty()          ? baseline_of(numbers, all, plan)
                                                               : nullptr;
         if (baseline == nullptr) {
-            without_baseline.push_back(numbers.arm->name);
+            left_out.push_back(
+                fmt::format("{}: there is no arm to hold it against", numbers.arm->name));
+        } else if (baseline != &numbers && !has_margin({&numbers, baseline}, plan)) {
+            left_out.push_back(
+                fmt::format("{}: the {} that it is held against has a median of 0, of which no "
+                            "share makes a margin",
+                            numbers.arm->name, plan.measure));
         } else if (baseline != &numbers) {
             pairs.push_back({&numbers, baseline});
         }
     }
     return pairs;
+}
+
+bool has_margin(const ContrastPair& pair, const ContrastPlan& plan) {
+    return statistics::median(values_of(*pair.baseline, plan)) != 0.0;
 }
 
 const std::vector<double>& values_of(const ArmNumbers& numbers, const ContrastPlan& plan) {

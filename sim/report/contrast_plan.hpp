@@ -36,6 +36,7 @@ enum class ContrastVerdict : std::uint8_t {
     small,       ///< shown to differ, and shown to differ by less than the margin
     different,   ///< shown to differ, and not shown to do so by less than the margin
     undecided,   ///< neither is shown
+    identical,   ///< there is nothing to test: all runs are the same, seed by seed
 };
 
 std::string_view name_of(ContrastVerdict verdict);
@@ -49,12 +50,15 @@ struct ContrastPair {
     const ArmNumbers* baseline{};
 };
 
-/// Every arm with its baseline, in the order of the arms; points into `all`. The names of those
-/// whose baseline has no runs are appended to `without_baseline`. Throws experiment::InputError
-/// where the plan names arms that have no runs, or two of one family.
+/// Every arm with its baseline, in the order of the arms; points into `all`. To `left_out` is
+/// appended which arms have none, and why. Throws experiment::InputError where the plan names arms
+/// that have no runs, several of one name, or two of one family.
 std::vector<ContrastPair> pair_with_baselines(const std::vector<ArmNumbers>& all,
                                               const ContrastPlan& plan,
-                                              std::vector<std::string>& without_baseline);
+                                              std::vector<std::string>& left_out);
+
+/// Whether a share of the baseline's median makes a margin: not of 0.
+bool has_margin(const ContrastPair& pair, const ContrastPlan& plan);
 
 /// The values of the plan's measure, in the order of the runs.
 /// Throws experiment::InputError where the runs are too short for it.

@@ -6,7 +6,6 @@
 
 #include "choice_names.hpp"
 #include "contrast.hpp"
-#include "statistics/quantiles.hpp"
 #include "study_design.hpp"
 
 namespace gene_clocks::report {
@@ -69,13 +68,10 @@ Json contrast_json(const Contrast& contrast) {
             {"verdict", name_of(contrast.verdict)}};
 }
 
-/// The margin is a share of the baseline's median, so that none of zero makes one.
-bool has_margin(const Pairing& pairing, const ContrastPlan& plan) {
-    return statistics::median(pairing.baseline->numbers->values.at(plan.measure)) != 0.0;
-}
-
 std::vector<Pairing> with_margin(std::vector<Pairing> pairings, const ContrastPlan& plan) {
-    std::erase_if(pairings, [&](const Pairing& pairing) { return !has_margin(pairing, plan); });
+    std::erase_if(pairings, [&](const Pairing& pairing) {
+        return !has_margin({pairing.arm->numbers, pairing.baseline->numbers}, plan);
+    });
     return pairings;
 }
 
@@ -116,16 +112,24 @@ Json paired_json(const PairedContrast& contrast) {
             {"verdict", name_of(contrast.verdict)}};
 }
 
-/// Of the treatments, over all conditions.
-Json paired_contrasts_json(const Group& group, const std::vector<ContrastPair>& pairs,
-                           ContrastPlan plan) {
-    for (const Factor& factor : group.factors) {
-        if (group.is_treatment(factor)) continue;
-        for (const experiment::Setting* setting : factor.settings)
-            plan.over.push_back(setting->key);
+/// Whether the two arms of a pairing differ in treatments alone.
+bool are_under_the_same_conditions(const Group& group, const Pairing& pairing) {
+    for (std::size_t i = 0; i < group.factors.size(); ++i) {
+        if (!group.is_treatment(group.factors[i]) &&
+            pairing.arm->levels[i] != pairing.baseline->levels[i])
+            return false;
     }
+    return true;
+}
+
+/// Of the treatments that have a counterpart under their own conditions.
+Json paired_contrasts_json(const Group& group, std::vector<Pairing> treatments,
+                           const ContrastPlan& plan) {
+    std::erase_if(treatments, [&](const Pairing& pairing) {
+        return !are_under_the_same_conditions(group, pairing);
+    });
     Json json = Json::array();
-    for (const PairedContrast& contrast : paired_contrasts(pairs, plan))
+    for (const PairedContrast& contrast : paired_contrasts(numbers_of(treatments), plan))
         json.push_back(paired_json(contrast));
     return json;
 }
@@ -148,7 +152,7 @@ Json group_json(const Group& group, const ContrastPlan& plan) {
     json["treatment_contrasts"] = contrasts_json(group, treatments, plan);
     json["condition_contrasts"] =
         contrasts_json(group, with_margin(pair_conditions(group), plan), plan);
-    json["paired_contrasts"] = paired_contrasts_json(group, numbers_of(treatments), plan);
+    json["paired_contrasts"] = paired_contrasts_json(group, treatments, plan);
     return json;
 }
 

@@ -94,6 +94,7 @@ std::optional<PairedContrast> contrast_of(const Change& change, const ContrastPl
     PairedContrast contrast;
     contrast.family = change.family;
     contrast.changes = change.settings;
+    contrast.first_arm = change.pairs.front().arm->arm;
     contrast.arms = change.pairs.size();
     contrast.seeds = seeds.size();
     contrast.margin = margin_of(change, plan);
@@ -124,13 +125,25 @@ Family family_of(const PairedContrast& contrast) {
 }
 
 std::vector<PairedContrast> paired_contrasts(std::span<const ContrastPair> pairs,
-                                             const ContrastPlan& plan) {
+                                             const ContrastPlan& plan,
+                                             std::vector<std::string>* left_out) {
     check(plan);
     std::vector<PairedContrast> contrasts;
     for (const Change& change : changes_of(pairs, plan)) {
-        if (auto contrast = contrast_of(change, plan)) contrasts.push_back(*std::move(contrast));
+        if (auto contrast = contrast_of(change, plan)) {
+            contrasts.push_back(*std::move(contrast));
+        } else if (left_out != nullptr) {
+            left_out->push_back(
+                fmt::format("{} and what changes its baseline alike, seed by seed: they share "
+                            "fewer than two seeds",
+                            change.pairs.front().arm->arm->name));
+        }
     }
     correct_by_family(contrasts, plan.level);
+    for (PairedContrast& contrast : contrasts) {
+        if (contrast.identical == contrast.arms * contrast.seeds)
+            contrast.verdict = ContrastVerdict::identical;
+    }
     return contrasts;
 }
 

@@ -20,6 +20,7 @@ namespace gene_clocks::report {
 struct PairedContrast {
     Family family;
     std::vector<std::string> changes;  ///< the settings that differ, as in "source=timestamp"
+    const Arm* first_arm{};            ///< the first that differs in that way; never null
     std::size_t arms{};                ///< that differ in that way, each with its baseline
     std::size_t seeds{};               ///< that all of them and their baselines hold
     std::size_t identical{};  ///< of arms × seeds pairs of runs, those with the same trajectory
@@ -36,9 +37,12 @@ struct PairedContrast {
 
 Family family_of(const PairedContrast& contrast);
 
-/// In the order in which the pairs first change something that way. Left out is what has fewer than
-/// two seeds. Throws experiment::InputError where the plan or the runs are unfit.
+/// In the order in which the pairs first change something that way. What has fewer than two seeds
+/// is left out, and named in `left_out` if that is given. A contrast whose runs are all the same
+/// has the verdict `identical`: a test needs scatter, and finds nothing without.
+/// Throws experiment::InputError where the plan or the runs are unfit.
 std::vector<PairedContrast> paired_contrasts(std::span<const ContrastPair> pairs,
-                                             const ContrastPlan& plan);
+                                             const ContrastPlan& plan,
+                                             std::vector<std::string>* left_out = nullptr);
 
 }  // namespace gene_clocks::report

@@ -34,12 +34,10 @@ Moments moments(std::span<const double> sample) {
     return {mean, std::sqrt(squares / (size - 1.0) / size)};
 }
 
-/// The probability of a mean so far above `expected`, or further.
+/// The probability of a mean so far above `expected`, or further; 1 without scatter.
 double tail_above(const Moments& sample, double expected, const students_t& distribution) {
-    if (sample.standard_error > 0.0) {
-        return cdf(complement(distribution, (sample.mean - expected) / sample.standard_error));
-    }
-    return sample.mean > expected ? 0.0 : 1.0;
+    if (sample.standard_error == 0.0) return 1.0;
+    return cdf(complement(distribution, (sample.mean - expected) / sample.standard_error));
 }
 
 double tail_below(const Moments& sample, double expected, const students_t& distribution) {

@@ -19,13 +19,15 @@ struct PairedTest {
 };
 
 /// Tests differences that are independent of each other, one for each pair. Where all of them are
-/// equal, they are taken for their mean: both p-values are then 0 or 1.
+/// equal there is no scatter to judge their mean by: both p-values are then 1, and the interval is
+/// that mean.
 /// Throws std::invalid_argument where there are fewer than two, one is not finite, the margin is
 /// not positive, or the confidence lies outside (0, 1).
 PairedTest paired_test(std::span<const double> differences, double margin,
                        double confidence = 0.95);
 
-/// Power by resampling: differences are drawn, with replacement, from those given, moved to a mean
+/// Power by resampling (a lower bound where few pairs differ, since draws without scatter show
+/// nothing): differences are drawn, with replacement, from those given, moved to a mean
 /// of 0 (of `margin`, for that of finding a difference). Throws as `paired_test` does, and
 /// std::invalid_argument where no resamples are asked for.
 Power paired_power(std::span<const double> differences, double margin,

@@ -19,7 +19,7 @@ ORIGINS = {"paper": "paper", "reference": "reference system"}
 ROLES = {"as-run": "As run", "as-printed": "As printed"}
 
 VERDICTS = {"equivalent": "equivalent", "small": "small difference", "different": "different",
-            "undecided": "undecided"}
+            "undecided": "undecided", "identical": "identical"}
 
 # Of the measures of chronology: its symbol in HTML, what it is, and the decimals to show.
 CHRONOLOGY = {

@@ -51,6 +51,11 @@ TEST_F(BadInputTest, CommandsAndOptions) {
     expect_refusal({"study", "gecco15", "--seeds", "-1"}, "--seeds");
     expect_refusal({"settings", "--format", "yaml"}, "yaml");
     expect_refusal({"settings", "--format", "toml"}, "--task");
+    expect_refusal({"settings", "--task", "navigation"}, "--format text: lists all keys");
+    expect_refusal({"settings", "odneat", "--set", "run.cycles=3"},
+                   "--format text: lists all keys");
+    expect_refusal({"settings", "odneat", "--task", "navigation", "--format", "toml"},
+                   "odneat: --format toml shows all settings");
     expect_refusal({"settings", "wolrd"},
                    "wolrd: there is no such key or table; did you mean world?");
     expect_refusal({"settings", "--builtin", "studies/gecco51.toml"},
@@ -202,7 +207,13 @@ TEST_F(BadInputTest, OtherStudiesAndPathsOnExport) {
     expect_refusal(contrast("--over", "radio.los"),
                    "--over: there is no setting \"radio.los\"; did you mean radio.loss?");
     expect_refusal({"contrast", "runs.sqlite", "--csv", "-", "--paired-csv", "-"},
-                   "--csv and --paired-csv: only one of them can be -");
+                   "--paired-csv: --csv goes to - already");
+    expect_refusal({"contrast", "runs.sqlite", "--csv", "a.csv", "--paired-csv", "./a.csv"},
+                   "--paired-csv: --csv goes to ./a.csv already");
+    expect_refusal({"export", "runs.sqlite", "--runs", "a.csv", "--samples", "none/../a.csv"},
+                   "--samples: --runs goes to none/../a.csv already");
+    expect_refusal({"contrast", "runs.sqlite", "--csv", "a.csv", "--paired-csv", "none/b.csv"},
+                   "none/b.csv: cannot be written");
     expect_refusal(contrast("--baseline", "radio.los=0"),
                    "--baseline radio.los=0: radio.los: unknown key; did you mean radio.loss?");
     expect_refusal(contrast("--baseline", "radio.loss=0"), "no arm has one to be held against");

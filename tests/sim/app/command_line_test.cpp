@@ -209,9 +209,29 @@ TEST_F(CommandLineTest, ContrastHoldsArmsAgainstEachOther) {
     EXPECT_THAT(csv, testing::StartsWith("measure,task,profile,arm,baseline,runs,"));
     expect_rectangular(csv, 1 + 2);
     const std::string paired = output_of({"contrast", store, "--paired-csv", "-"});
-    EXPECT_THAT(paired, testing::StartsWith("measure,task,profile,change,arms,seeds,"));
-    EXPECT_THAT(paired, HasSubstr("\nf_c,collection,gecco15,\"source=timestamp\",1,4,"));
+    EXPECT_THAT(paired, testing::StartsWith("measure,task,profile,change,first_arm,arms,seeds,"));
+    EXPECT_THAT(
+        paired,
+        HasSubstr("\nf_c,collection,gecco15,\"source=timestamp\",collection-timestamp,1,4,"));
     expect_rectangular(paired, 1 + 2);
+}
+
+TEST_F(CommandLineTest, WhatStudiesHaveInCommonCountsOnce) {
+    const std::string arms =
+        "title = \"x\"\nseeds = 3\n[settings]\nrun.cycles = 300\nworld.robots = 5\n"
+        "[[arm]]\ntask = \"navigation\"\nsource = [\"gene-clock\", \"timestamp\"]\n";
+    for (const char* name : {"one", "two"}) {
+        folder.write(std::string(name) + ".toml", "name = \"" + std::string(name) + "\"\n" + arms);
+        output_of({"study", std::string(name) + ".toml", "--store", "both.sqlite"});
+    }
+    output_of({"study", "two.toml", "--store", "both.sqlite", "--seeds", "4"});
+    const std::string both = output_of({"contrast", "both.sqlite", "--csv", "-"});
+    EXPECT_EQ(both, output_of({"contrast", "both.sqlite", "--study", "two", "--csv", "-"}));
+    EXPECT_EQ(both, output_of({"contrast", "both.sqlite", "--study", "one", "--study", "two",
+                               "--study", "one", "--csv", "-"}));
+    expect_rectangular(both, 1 + 1);
+    const std::string one = output_of({"contrast", "--study", "one", "both.sqlite", "--csv", "-"});
+    EXPECT_NE(one, both);
 }
 
 TEST_F(CommandLineTest, ReproduceLeavesAStoreAndAReport) {

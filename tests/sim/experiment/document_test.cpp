@@ -31,6 +31,21 @@ TEST(Document, RefusesWhatIsNoReadableFile) {
     EXPECT_THAT(input_error([&] { load_document(large); }), testing::HasSubstr("larger than"));
 }
 
+// Tables within tables are taken down by recursion: a hundred thousand of them broke the stack.
+TEST(Document, RefusesKeysOfTooManyParts) {
+    std::string parts;
+    for (int i = 0; i < 100'000; ++i) parts += "a.";
+    for (const std::string& text :
+         {parts + "b = 1", "[" + parts + "b]", "x = { " + parts + "b = 1 }"}) {
+        EXPECT_THAT(input_error([&] { parse_document("c = 1\n" + text, "x.toml"); }),
+                    testing::StartsWith("x.toml:2: a line with more than 10000 dots"));
+    }
+    std::string numbers = "list = [0.5";
+    for (int i = 1; i < 10'000; ++i) numbers += ", 0.5";
+    EXPECT_NO_THROW(parse_document(numbers + "]", "x.toml"));
+    EXPECT_NO_THROW(parse_document(parts.substr(0, 2 * 10'000) + "b = 1", "x.toml"));
+}
+
 TEST(Document, KnowsItsFolder) {
     const test::TemporaryFolder folder;
     EXPECT_EQ(load_document(folder.write("x.toml", "a = 1")).directory, folder.path());

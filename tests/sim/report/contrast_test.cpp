@@ -149,12 +149,13 @@ TEST(Contrast, FindsItsBaselineBySettings) {
     input.arms[1].settings.radio.loss = 0.5;
     input.arms[2].settings.radio.loss = 0.9;
     input.arms[3].settings.radio.loss = 0.9;
-    const auto [by_loss, paired, without] = contrast(input, {.baseline = {"radio.loss=0"}});
+    const auto [by_loss, paired, left_out] = contrast(input, {.baseline = {"radio.loss=0"}});
     ASSERT_EQ(by_loss.size(), 2U);
     EXPECT_EQ(by_loss[0].arm, &input.arms[1]);
     EXPECT_EQ(by_loss[1].arm, &input.arms[2]);
     EXPECT_EQ(by_loss[0].baseline, &input.arms[0]);
-    EXPECT_EQ(without, std::vector<std::string>{input.arms[3].name});
+    EXPECT_EQ(left_out, std::vector<std::string>{input.arms[3].name +
+                                                 ": there is no arm to hold it against"});
     const auto by_both = contrast(input, {.baseline = {"radio.loss=0", "source=gene-clock"}}).arms;
     ASSERT_EQ(by_both.size(), 3U);
     EXPECT_EQ(by_both[2].baseline, &input.arms[0]);
@@ -175,15 +176,35 @@ TEST(Contrast, HoldsAllOfATaskAgainstANamedArm) {
     EXPECT_EQ(of_both.arms[1].baseline, &input.arms[1]);
     EXPECT_EQ(of_both.arms[2].arm, &input.arms[4]);
     EXPECT_EQ(of_both.arms[2].baseline, &input.arms[3]);
-    EXPECT_TRUE(of_both.without_baseline.empty());
+    EXPECT_TRUE(of_both.left_out.empty());
     const auto of_one = contrast(input, {.against = {"navigation-B-timestamp"}});
     EXPECT_EQ(of_one.arms.size(), 2U);
-    EXPECT_EQ(of_one.without_baseline.size(), 2U);
+    EXPECT_EQ(of_one.left_out.size(), 2U);
     const auto refuses = [&](std::vector<std::string> against) {
         EXPECT_THROW((void)contrast(input, {.against = std::move(against)}), InputError);
     };
     refuses({"navigation-B-timestamps"});
     refuses({"navigation-B-timestamp", "navigation-A-gene-clock"});
+}
+
+TEST(Contrast, AgainstAMedianOfZeroIsLeftOut) {
+    Input input = input_of({{},
+                            {.source = timestamp},
+                            {.task = collection, .parameters = "C"},
+                            {.task = collection, .source = timestamp, .parameters = "C"}});
+    for (report::Run& run : input.arms[0].runs)
+        for (sim::Sample& sample : run.result.samples) sample.swarm_fitness = 0.0;
+    const Contrasts found = contrast(input, {});
+    ASSERT_EQ(found.arms.size(), 1U);
+    EXPECT_EQ(found.arms[0].arm, &input.arms[3]);
+    ASSERT_EQ(found.left_out.size(), 1U);
+    EXPECT_NE(found.left_out[0].find("has a median of 0"), std::string::npos);
+}
+
+TEST(Contrast, OfANameThatSeveralArmsHaveIsRefused) {
+    Input input = input_of({{}, {.source = timestamp}, {.parameters = "A"}});
+    input.arms[2].name = input.arms[0].name;
+    EXPECT_THROW((void)contrast(input, {.against = {input.arms[0].name}}), InputError);
 }
 
 TEST(Contrast, RefusesWhatCannotBeHeldAgainstAnything) {

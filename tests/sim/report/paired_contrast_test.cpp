@@ -85,7 +85,7 @@ TEST(PairedContrast, SeesWhatTestsOfSingleArmsCannot) {
     const auto verdict_of_sweep = [&](const std::vector<double>& higher) {
         return contrast(sweep(higher, 10), plan).paired.front().verdict;
     };
-    EXPECT_EQ(verdict_of_sweep({0.0, 0.0, 0.0}), ContrastVerdict::equivalent);
+    EXPECT_EQ(verdict_of_sweep({0.0, 0.0, 0.0}), ContrastVerdict::identical);
     EXPECT_EQ(verdict_of_sweep({30.0, 0.0, 0.0}), ContrastVerdict::different);
 }
 
@@ -140,13 +140,15 @@ TEST(PairedContrast, IsCorrectedWithinItsFamily) {
     EXPECT_DOUBLE_EQ(two[0].difference_p_corrected, 2.0 * one[0].difference_p_value);
 }
 
-TEST(PairedContrast, OfNothingButZerosHasNoMargin) {
-    Input input = sweep({0.0}, 3);
-    for (Arm& arm : input.arms)
-        for (report::Run& run : arm.runs)
-            for (sim::Sample& sample : run.result.samples) sample.swarm_fitness = 0.0;
-    EXPECT_THROW((void)contrast(input, {}), InputError);
-    EXPECT_EQ(paired_contrasts({}, {}).size(), 0U);
+TEST(PairedContrast, WhatSharesNoSeedsIsNamed) {
+    Input input = sweep({0.0, 0.0}, 3);
+    for (report::Run& run : input.arms[1].runs) run.seed += 10;
+    for (report::Run& run : input.arms[3].runs) run.seed += 10;
+    const Contrasts found = contrast(input, {});
+    EXPECT_EQ(found.arms.size(), 2U);
+    EXPECT_TRUE(found.paired.empty());
+    ASSERT_EQ(found.left_out.size(), 1U);
+    EXPECT_NE(found.left_out[0].find("fewer than two seeds"), std::string::npos);
 }
 
 }  // namespace

@@ -13,18 +13,29 @@ namespace {
 
 const std::vector<double> around_zero{-3.0, -1.5, -1.0, 0.0, 0.0, 0.5, 1.0, 1.5, 2.5};
 
-TEST(Paired, OfEqualDifferencesIsCertain) {
-    const PairedTest none = paired_test(std::vector<double>(8, 0.0), 1.0);
-    EXPECT_EQ(none.mean, 0.0);
-    EXPECT_EQ(none.difference_p_value, 1.0);
-    EXPECT_EQ(none.equivalence_p_value, 0.0);
-    const PairedTest small = paired_test(std::vector<double>(7, 0.1), 1.0);  // 0.7 / 7 is not 0.1
-    EXPECT_EQ(small.interval.lower, 0.1);
-    EXPECT_EQ(small.interval.upper, 0.1);
-    EXPECT_EQ(small.difference_p_value, 0.0);
-    EXPECT_EQ(small.equivalence_p_value, 0.0);
-    for (const double beyond : {1.0, -1.0, 2.0, -2.0})
-        EXPECT_EQ(paired_test(std::vector<double>(8, beyond), 1.0).equivalence_p_value, 1.0);
+// R's t.test refuses them: "data are essentially constant".
+TEST(Paired, WithoutScatterNothingIsShown) {
+    for (const double difference : {0.0, 0.1, -5.0}) {  // seven times 0.1 is not 0.7
+        const PairedTest found = paired_test(std::vector<double>(7, difference), 1.0);
+        EXPECT_EQ(found.mean, difference);
+        EXPECT_EQ(found.interval.lower, difference);
+        EXPECT_EQ(found.interval.upper, difference);
+        EXPECT_EQ(found.difference_p_value, 1.0);
+        EXPECT_EQ(found.equivalence_p_value, 1.0);
+    }
+    EXPECT_EQ(paired_power(std::vector<double>(7, 0.0), 1.0).equivalence, 0.0);
+    EXPECT_EQ(paired_power(std::vector<double>(7, 0.0), 1.0).difference, 0.0);
+    // Of two pairs, half of all draws have no scatter, and the others are as far from sure.
+    EXPECT_LT(paired_power(std::vector<double>{-4.5, 4.5}, 5.0).equivalence, 0.1);
+}
+
+TEST(Paired, EquivalenceIsAskedForOnBothSides) {
+    for (const double beyond : {1.25, -1.25}) {
+        std::vector<double> moved = around_zero;
+        for (double& value : moved) value = 0.01 * value + beyond;
+        EXPECT_GT(paired_test(moved, 1.0).equivalence_p_value, 0.99);
+        EXPECT_LT(paired_test(moved, 1.5).equivalence_p_value, 0.01);
+    }
 }
 
 TEST(Paired, IsSymmetric) {
