@@ -5,9 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iomanip>
 
 #include "choice_names.hpp"
+#include "csv_export.hpp"
 
 namespace gene_clocks::app {
 namespace {
@@ -79,8 +79,9 @@ void write_csv(const std::vector<Contrast>& rows, const std::string& measure, st
                "equivalence_p_corrected,power_equivalence,power_difference,verdict\n");
     for (const Contrast& row : rows) {
         fmt::print(out, "{},{},{},{},{},{},{},{},{},", measure,
-                   experiment::name_of(row.arm->settings.task), row.arm->profile, row.arm->name,
-                   row.baseline->name, row.runs, row.baseline_runs, row.pairs, row.identical);
+                   experiment::name_of(row.arm->settings.task),
+                   experiment::csv_field(row.arm->profile), row.arm->name, row.baseline->name,
+                   row.runs, row.baseline_runs, row.pairs, row.identical);
         fmt::print(out, "{},{},{},{},{},{},{},{},{},", row.median, row.baseline_median, row.margin,
                    row.shift.estimate, row.shift.interval.lower, row.shift.interval.upper,
                    row.effect, row.effect_interval.lower, row.effect_interval.upper);
@@ -100,9 +101,9 @@ void write_csv(const std::vector<PairedContrast>& rows, const std::string& measu
                "verdict\n");
     for (const PairedContrast& row : rows) {
         fmt::print(out, "{},{},{},{},{},{},{},{},{},{},", measure, name_of(row.family.first),
-                   row.family.second, fmt::streamed(std::quoted(change_text(row), '"', '"')),
-                   row.first_arm->name, row.arms, row.seeds, row.identical, row.baseline_mean,
-                   row.margin);
+                   experiment::csv_field(row.family.second),
+                   experiment::csv_field(change_text(row)), row.first_arm->name, row.arms,
+                   row.seeds, row.identical, row.baseline_mean, row.margin);
         fmt::print(out, "{},{},{},{},{},{},{},{},{},{}\n", row.test.mean, row.test.interval.lower,
                    row.test.interval.upper, row.difference_p_value, row.difference_p_corrected,
                    row.equivalence_p_value, row.equivalence_p_corrected, row.power.equivalence,

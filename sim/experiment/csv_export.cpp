@@ -3,7 +3,9 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <iomanip>
 #include <map>
+#include <sstream>
 #include <string>
 
 #include "choice_names.hpp"
@@ -24,11 +26,12 @@ std::map<sim::Task, double> best_by_task(const Store& store, const StoredStudy& 
     return best;
 }
 
-/// The columns that say which run a line is about. Names have no commas or quotes: read_study sees
-/// to it.
+/// The columns that say which run a line is about. Names have no commas or quotes, read_study sees
+/// to it; a profile may be any file.
 std::string identity(const StoredStudy& study, const StoredArm& arm, const RunRecord& run) {
     return fmt::format("{},{},{},{},{},{},{}", study.name, arm.name, name_of(arm.settings.task),
-                       name_of(arm.settings.source), arm.profile, arm.parameters, run.seed);
+                       name_of(arm.settings.source), csv_field(arm.profile), arm.parameters,
+                       run.seed);
 }
 constexpr std::string_view identity_header = "study,arm,task,source,profile,parameters,seed";
 
@@ -54,6 +57,13 @@ void write_run(const StoredStudy& study, const StoredArm& arm, const RunRecord& 
 }
 
 }  // namespace
+
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::ostringstream stream;
+    stream << std::quoted(text, '"', '"');
+    return stream.str();
+}
 
 void write_runs_csv(const Store& store, const std::vector<StoredStudy>& studies,
                     std::ostream& out) {

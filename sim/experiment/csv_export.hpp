@@ -1,10 +1,14 @@
 #pragma once
 
 #include <iosfwd>
+#include <string>
 
 #include "store.hpp"
 
 namespace gene_clocks::experiment {
+
+/// A text as a field of CSV: in quotes where it has a comma, a quote or a line break (RFC 4180).
+std::string csv_field(const std::string& text);
 
 /// Writes one line for each finished run of the studies: what it is, its measures, counters,
 /// measures of chronology and identity. The best swarm fitness that t_f and f_a refer to is that of

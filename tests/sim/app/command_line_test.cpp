@@ -210,9 +210,8 @@ TEST_F(CommandLineTest, ContrastHoldsArmsAgainstEachOther) {
     expect_rectangular(csv, 1 + 2);
     const std::string paired = output_of({"contrast", store, "--paired-csv", "-"});
     EXPECT_THAT(paired, testing::StartsWith("measure,task,profile,change,first_arm,arms,seeds,"));
-    EXPECT_THAT(
-        paired,
-        HasSubstr("\nf_c,collection,gecco15,\"source=timestamp\",collection-timestamp,1,4,"));
+    EXPECT_THAT(paired,
+                HasSubstr("\nf_c,collection,gecco15,source=timestamp,collection-timestamp,1,4,"));
     expect_rectangular(paired, 1 + 2);
 }
 

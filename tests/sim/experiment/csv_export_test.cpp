@@ -52,6 +52,14 @@ protected:
     std::ostringstream out;
 };
 
+TEST(CsvField, IsQuotedWhereItMustBe) {
+    EXPECT_EQ(csv_field("mended"), "mended");
+    EXPECT_EQ(csv_field("my profiles/a b.toml"), "my profiles/a b.toml");
+    EXPECT_EQ(csv_field("a,b.toml"), "\"a,b.toml\"");
+    EXPECT_EQ(csv_field("a\"b.toml"), "\"a\"\"b.toml\"");
+    EXPECT_EQ(csv_field("a\nb"), "\"a\nb\"");
+}
+
 TEST_F(CsvTest, HasALineForEachRun) {
     write_runs_csv(store, store.studies(), out);
     const auto rows = parse(out.str());
