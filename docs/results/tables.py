@@ -214,6 +214,7 @@ for only in (["navigation"],):
     tables_of("population", "population", [NAME, FITNESS, MATINGS, *BRIEFLY], tasks=only)
     tables_of("growth", "growth", [NAME, FITNESS, MATINGS, *HOMOLOGY, *TESTS], tasks=only)
     tables_of("mating", "mating", [NAME, FITNESS, MATINGS, *HOMOLOGY, *TESTS], tasks=only)
+tables_of("tuned", "tuned", [NAME, FITNESS, MATINGS, *TESTS])
 tables_of("parents", "parents", [NAME, FITNESS, MATINGS, *TESTS])
 tables_of("operators", "operators", [NAME, FITNESS, MATINGS, *TESTS])
 tables_of("equal-weights", "equal-weights", [NAME, FITNESS, *BRIEFLY])

@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <system_error>
@@ -45,6 +46,23 @@ void say_what_is_there(const Store& store, const std::filesystem::path& file, st
     }
 }
 
+void say_what_will_be_gone(const Store& store, const Study& study,
+                           const std::filesystem::path& file) {
+    for (const experiment::StoredStudy& known : store.studies()) {
+        if (known.name != study.name) continue;
+        const auto is_gone = [&](const experiment::StoredArm& arm) {
+            return std::ranges::find(study.arms, arm.settings_hash,
+                                     &experiment::Arm::settings_hash) == study.arms.end();
+        };
+        if (const auto gone = std::ranges::count_if(known.arms, is_gone); gone > 0) {
+            fmt::print(stderr,
+                       "{}: {} of the {} arms that it held of this study are no longer in the "
+                       "study, or have other settings now; their runs stay there\n",
+                       file.string(), gone, known.arms.size());
+        }
+    }
+}
+
 void make_folder_of(const std::filesystem::path& file) {
     if (!file.has_parent_path()) return;
     std::error_code error;
@@ -64,6 +82,7 @@ int conduct(const Study& study, const std::filesystem::path& file, const experim
     const auto& stop = watch_stop_signals();
     make_folder_of(file);
     Store store = Store::open_for_writing(file);
+    say_what_will_be_gone(store, study, file);
     store.put_study(study);
 
     std::vector<Task> tasks = experiment::plan_runs(study, shard);

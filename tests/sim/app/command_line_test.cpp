@@ -215,6 +215,19 @@ TEST_F(CommandLineTest, ContrastHoldsArmsAgainstEachOther) {
     expect_rectangular(paired, 1 + 2);
 }
 
+TEST_F(CommandLineTest, AStudyThatHasChangedSaysWhatStaysBehind) {
+    Program::Arguments study{"study", "gecco15", "--quick",        "--seeds",
+                             "1",     "--set",   "run.cycles=100", "world.robots=3"};
+    output_of(study);
+    EXPECT_EQ(test::gene_clocks(folder.path(), study).messages.find("no longer"),
+              std::string::npos);
+    study.back() = "world.robots=4";
+    EXPECT_THAT(
+        test::gene_clocks(folder.path(), study).messages,
+        HasSubstr("results/gecco15-quick.sqlite: 4 of the 4 arms that it held of this study "
+                  "are no longer in the study, or have other settings now"));
+}
+
 TEST_F(CommandLineTest, WhatStudiesHaveInCommonCountsOnce) {
     const std::string arms =
         "title = \"x\"\nseeds = 3\n[settings]\nrun.cycles = 300\nworld.robots = 5\n"
