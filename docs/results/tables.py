@@ -160,6 +160,13 @@ HOMOLOGY = [
     ("missed homologies per alignment", rate("missed_homologies", "alignments", 1, 3)),
     ("false ones", rate("false_homologies", "alignments", 1, 3)),
 ]
+HEARD = ("messages heard in 1000 cycles", rate("messages_received", "robot_steps", 1000, 1))
+CONCURRENT = ("concurrent pairs, %",
+              lambda arm: number(100 * (1 - arm.ratio("caused_pairs", "pairs")), 1))
+ADDED = ("elements added", median("added_elements", 1))
+UNMATCHED = ("unmatched genes per alignment",
+             lambda arm: number((arm.total("disjoint") + arm.total("excess")) /
+                                arm.total("alignments"), 1))
 MATINGS = ("matings per 100 births", share("matings", "births", 1))
 BYTES = [
     ("bytes of a broadcast", rate("bytes_sent", "messages_sent", 1, 0)),
@@ -199,21 +206,23 @@ def tables_of(study, name, columns, tasks=("navigation", "collection"), but=None
              if arm.task == task and not (but and re.search(but, arm.name))], columns)
 
 
+NAVIGATION = ("navigation",)
 tables_of("markings", "markings fitness", [SOURCE, FITNESS, *TESTS])
 tables_of("markings", "markings order", [SOURCE, *ORDER, *COLLISIONS, *HOMOLOGY])
 tables_of("markings", "markings cost", [SOURCE, MATINGS, *BYTES,
                                         ("largest counter", median("stamp_largest", 0))])
-for only in (["navigation"],):
-    tables_of("drift", "drift", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=only,
-              but="drift-ppm-(100|1000)$")
-    tables_of("loss", "loss", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=only)
-    tables_of("encounters", "encounters", [NAME, FITNESS, MATINGS, *BRIEFLY], tasks=only)
-    tables_of("swarm-size", "swarm-size", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=only)
-    tables_of("reboots", "reboots", [NAME, FITNESS, *ORDER[:1], *COLLISIONS, *BRIEFLY], tasks=only)
-    tables_of("late-joiners", "late-joiners", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=only)
-    tables_of("population", "population", [NAME, FITNESS, MATINGS, *BRIEFLY], tasks=only)
-    tables_of("growth", "growth", [NAME, FITNESS, MATINGS, *HOMOLOGY, *TESTS], tasks=only)
-    tables_of("mating", "mating", [NAME, FITNESS, MATINGS, *HOMOLOGY, *TESTS], tasks=only)
+tables_of("drift", "drift", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=NAVIGATION,
+          but="drift-ppm-(100|1000)$")
+tables_of("loss", "loss", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=NAVIGATION)
+tables_of("encounters", "encounters", [NAME, FITNESS, HEARD, CONCURRENT, ORDER[0], ORDER[2], *BRIEFLY],
+          tasks=NAVIGATION)
+tables_of("swarm-size", "swarm-size", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=NAVIGATION)
+tables_of("reboots", "reboots", [NAME, FITNESS, *ORDER[:1], *COLLISIONS, *BRIEFLY], tasks=NAVIGATION)
+tables_of("late-joiners", "late-joiners", [NAME, FITNESS, *ORDER, *BRIEFLY], tasks=NAVIGATION)
+tables_of("population", "population", [NAME, FITNESS, MATINGS, *BRIEFLY], tasks=NAVIGATION)
+tables_of("growth", "growth", [NAME, FITNESS, ADDED, UNMATCHED, MATINGS, *HOMOLOGY, *BRIEFLY],
+          tasks=NAVIGATION)
+tables_of("mating", "mating", [NAME, FITNESS, MATINGS, *HOMOLOGY, *TESTS], tasks=NAVIGATION)
 tables_of("tuned", "tuned", [NAME, FITNESS, MATINGS, *TESTS])
 tables_of("parents", "parents", [NAME, FITNESS, MATINGS, *TESTS])
 tables_of("operators", "operators", [NAME, FITNESS, MATINGS, *TESTS])

@@ -185,6 +185,17 @@ std::string program_version() {
     return GENE_CLOCKS_VERSION;
 }
 
+/// Calls a function; what SQLite complains of then names the file. Throws InputError where that is
+/// damaged, else std::runtime_error.
+template <typename Function>
+auto Store::naming_file(Function&& function) const {
+    try {
+        return function();
+    } catch (const SQLite::Exception& error) {
+        throw_named(database_->getFilename(), error);
+    }
+}
+
 Store::Store(std::unique_ptr<SQLite::Database> database) : database_(std::move(database)) {
     database_->exec("PRAGMA foreign_keys = ON");
 }
@@ -203,37 +214,41 @@ Store Store::open_for_reading(const std::filesystem::path& file) {
 }
 
 void Store::take_over_new_keys() {
-    std::vector<std::pair<std::string, std::string>> extended;  // old hash, new text
-    SQLite::Statement rows(*database_, "SELECT hash, canonical FROM settings");
-    while (rows.executeStep()) {
-        auto [text, added] =
-            with_new_keys(rows.getColumn(1).getString(), {database_->getFilename()});
-        if (added.empty()) continue;
-        extended.emplace_back(rows.getColumn(0).getString(), std::move(text));
-        new_keys_ = std::move(added);
-    }
-    rows.reset();
-    SQLite::Transaction transaction(*database_);
-    for (const auto& [hash, text] : extended) {
-        execute(*database_, "UPDATE settings SET hash = ?, canonical = ? WHERE hash = ?",
-                hash_of(text), text, hash);
-    }
-    transaction.commit();
+    naming_file([&] {
+        std::vector<std::pair<std::string, std::string>> extended;  // old hash, new text
+        SQLite::Statement rows(*database_, "SELECT hash, canonical FROM settings");
+        while (rows.executeStep()) {
+            auto [text, added] =
+                with_new_keys(rows.getColumn(1).getString(), {database_->getFilename()});
+            if (added.empty()) continue;
+            extended.emplace_back(rows.getColumn(0).getString(), std::move(text));
+            new_keys_ = std::move(added);
+        }
+        rows.reset();
+        SQLite::Transaction transaction(*database_);
+        for (const auto& [hash, text] : extended) {
+            execute(*database_, "UPDATE settings SET hash = ?, canonical = ? WHERE hash = ?",
+                    hash_of(text), text, hash);
+        }
+        transaction.commit();
+    });
 }
 
 void Store::put_study(const Study& study) {
-    StoredStudy stored{study.name,       study.title, study.description,
-                       study.first_seed, study.seeds, {}};
-    SQLite::Transaction transaction(*database_);
-    for (const Arm& arm : study.arms) {
-        execute(*database_, "INSERT OR IGNORE INTO settings VALUES (?, ?)", arm.settings_hash,
-                arm.canonical);
-        stored.arms.push_back(
-            {arm.name, arm.profile, arm.parameters, arm.settings_hash, arm.settings});
-    }
-    execute(*database_, "DELETE FROM study WHERE name = ?", study.name);
-    insert_study(stored);
-    transaction.commit();
+    naming_file([&] {
+        StoredStudy stored{study.name,       study.title, study.description,
+                           study.first_seed, study.seeds, {}};
+        SQLite::Transaction transaction(*database_);
+        for (const Arm& arm : study.arms) {
+            execute(*database_, "INSERT OR IGNORE INTO settings VALUES (?, ?)", arm.settings_hash,
+                    arm.canonical);
+            stored.arms.push_back(
+                {arm.name, arm.profile, arm.parameters, arm.settings_hash, arm.settings});
+        }
+        execute(*database_, "DELETE FROM study WHERE name = ?", study.name);
+        insert_study(stored);
+        transaction.commit();
+    });
 }
 
 void Store::insert_study(const StoredStudy& study) {
@@ -248,9 +263,11 @@ void Store::insert_study(const StoredStudy& study) {
 }
 
 void Store::put_run(const RunRecord& record) {
-    SQLite::Transaction transaction(*database_);
-    insert_run(record);
-    transaction.commit();
+    naming_file([&] {
+        SQLite::Transaction transaction(*database_);
+        insert_run(record);
+        transaction.commit();
+    });
 }
 
 void Store::insert_run(const RunRecord& record) {
@@ -276,11 +293,13 @@ void Store::insert_run(const RunRecord& record) {
 }
 
 std::size_t Store::take_over(const std::vector<std::filesystem::path>& stores) {
-    SQLite::Transaction transaction(*database_);
-    std::size_t entered = 0;
-    for (const auto& file : stores) entered += insert_missing_from(open_for_reading(file));
-    transaction.commit();
-    return entered;
+    return naming_file([&] {
+        SQLite::Transaction transaction(*database_);
+        std::size_t entered = 0;
+        for (const auto& file : stores) entered += insert_missing_from(open_for_reading(file));
+        transaction.commit();
+        return entered;
+    });
 }
 
 std::size_t Store::insert_missing_from(const Store& other) {
@@ -314,69 +333,80 @@ std::size_t Store::insert_missing_from(const Store& other) {
 }
 
 std::map<std::string, std::string> Store::current_hashes() const {
-    std::map<std::string, std::string> hashes;
-    SQLite::Statement rows(*database_, "SELECT hash, canonical FROM settings");
-    while (rows.executeStep()) {
-        const auto [text, added] =
-            with_new_keys(rows.getColumn(1).getString(), {database_->getFilename()});
-        const std::string hash = rows.getColumn(0).getString();
-        hashes[hash] = added.empty() ? hash : hash_of(text);
-    }
-    return hashes;
+    return naming_file([&] {
+        std::map<std::string, std::string> hashes;
+        SQLite::Statement rows(*database_, "SELECT hash, canonical FROM settings");
+        while (rows.executeStep()) {
+            const auto [text, added] =
+                with_new_keys(rows.getColumn(1).getString(), {database_->getFilename()});
+            const std::string hash = rows.getColumn(0).getString();
+            hashes[hash] = added.empty() ? hash : hash_of(text);
+        }
+        return hashes;
+    });
 }
 
 std::set<RunKey> Store::finished() const {
-    const auto hashes = current_hashes();
-    std::set<RunKey> keys;
-    SQLite::Statement rows(*database_, "SELECT settings_hash, seed FROM run");
-    while (rows.executeStep()) {
-        keys.emplace(hashes.at(rows.getColumn(0).getString()),
-                     static_cast<std::uint64_t>(rows.getColumn(1).getInt64()));
-    }
-    return keys;
+    return naming_file([&] {
+        const auto hashes = current_hashes();
+        std::set<RunKey> keys;
+        SQLite::Statement rows(*database_, "SELECT settings_hash, seed FROM run");
+        while (rows.executeStep()) {
+            keys.emplace(hashes.at(rows.getColumn(0).getString()),
+                         static_cast<std::uint64_t>(rows.getColumn(1).getInt64()));
+        }
+        return keys;
+    });
 }
 
 std::map<RunKey, std::uint64_t> Store::trajectory_hashes() const {
-    const auto current = current_hashes();
-    std::map<RunKey, std::uint64_t> hashes;
-    SQLite::Statement rows(*database_, "SELECT settings_hash, seed, trajectory_hash FROM run");
-    while (rows.executeStep()) {
-        const RunKey key{current.at(rows.getColumn(0).getString()),
-                         static_cast<std::uint64_t>(rows.getColumn(1).getInt64())};
-        hashes[key] = parse_hexadecimal(rows.getColumn(2).getString());
-    }
-    return hashes;
+    return naming_file([&] {
+        const auto current = current_hashes();
+        std::map<RunKey, std::uint64_t> hashes;
+        SQLite::Statement rows(*database_, "SELECT settings_hash, seed, trajectory_hash FROM run");
+        while (rows.executeStep()) {
+            const RunKey key{current.at(rows.getColumn(0).getString()),
+                             static_cast<std::uint64_t>(rows.getColumn(1).getInt64())};
+            hashes[key] = parse_hexadecimal(rows.getColumn(2).getString());
+        }
+        return hashes;
+    });
 }
 
 std::map<std::string, RecordedTime> Store::recorded_times() const {
-    const auto hashes = current_hashes();
-    std::map<std::string, RecordedTime> times;
-    SQLite::Statement rows(*database_,
-                           "SELECT settings_hash, COUNT(*), SUM(robot_steps), SUM(wall_seconds) "
-                           "FROM run GROUP BY settings_hash");
-    while (rows.executeStep()) {
-        times[hashes.at(rows.getColumn(0).getString())] = {
-            static_cast<std::size_t>(rows.getColumn(1).getInt64()),
-            static_cast<std::uint64_t>(rows.getColumn(2).getInt64()),
-            rows.getColumn(3).getDouble()};
-    }
-    return times;
+    return naming_file([&] {
+        const auto hashes = current_hashes();
+        std::map<std::string, RecordedTime> times;
+        SQLite::Statement rows(
+            *database_,
+            "SELECT settings_hash, COUNT(*), SUM(robot_steps), SUM(wall_seconds) "
+            "FROM run GROUP BY settings_hash");
+        while (rows.executeStep()) {
+            times[hashes.at(rows.getColumn(0).getString())] = {
+                static_cast<std::size_t>(rows.getColumn(1).getInt64()),
+                static_cast<std::uint64_t>(rows.getColumn(2).getInt64()),
+                rows.getColumn(3).getDouble()};
+        }
+        return times;
+    });
 }
 
 std::vector<StoredStudy> Store::studies() const {
-    std::vector<StoredStudy> studies;
-    SQLite::Statement rows(*database_, "SELECT * FROM study ORDER BY name");
-    while (rows.executeStep()) {
-        StoredStudy study;
-        study.name = rows.getColumn("name").getString();
-        study.title = rows.getColumn("title").getString();
-        study.description = rows.getColumn("description").getString();
-        study.first_seed = unsigned_column(rows, "first_seed");
-        study.seeds = rows.getColumn("seeds").getInt64();
-        study.arms = read_arms(*database_, study.name);
-        studies.push_back(std::move(study));
-    }
-    return studies;
+    return naming_file([&] {
+        std::vector<StoredStudy> studies;
+        SQLite::Statement rows(*database_, "SELECT * FROM study ORDER BY name");
+        while (rows.executeStep()) {
+            StoredStudy study;
+            study.name = rows.getColumn("name").getString();
+            study.title = rows.getColumn("title").getString();
+            study.description = rows.getColumn("description").getString();
+            study.first_seed = unsigned_column(rows, "first_seed");
+            study.seeds = rows.getColumn("seeds").getInt64();
+            study.arms = read_arms(*database_, study.name);
+            studies.push_back(std::move(study));
+        }
+        return studies;
+    });
 }
 
 StoredStudy Store::study(const std::string& name) const {
@@ -399,23 +429,27 @@ StoredStudy Store::study(const std::string& name) const {
 }
 
 std::vector<RunRecord> Store::runs(const StoredStudy& study, const StoredArm& arm) const {
-    std::vector<RunRecord> records;
-    SQLite::Statement rows(
-        *database_,
-        "SELECT * FROM run WHERE settings_hash = ? AND seed >= ? AND seed < ? ORDER BY seed");
-    SQLite::bind(rows, arm.settings_hash, as_integer(study.first_seed),
-                 as_integer(study.first_seed) + study.seeds);
-    while (rows.executeStep()) {
-        records.push_back(read_run(*database_, rows));
-    }
-    return records;
+    return naming_file([&] {
+        std::vector<RunRecord> records;
+        SQLite::Statement rows(
+            *database_,
+            "SELECT * FROM run WHERE settings_hash = ? AND seed >= ? AND seed < ? ORDER BY seed");
+        SQLite::bind(rows, arm.settings_hash, as_integer(study.first_seed),
+                     as_integer(study.first_seed) + study.seeds);
+        while (rows.executeStep()) {
+            records.push_back(read_run(*database_, rows));
+        }
+        return records;
+    });
 }
 
 std::int64_t Store::runs_of_other_versions() const {
-    SQLite::Statement count(*database_, "SELECT COUNT(*) FROM run WHERE program_version <> ?");
-    count.bind(1, program_version());
-    count.executeStep();
-    return count.getColumn(0).getInt64();
+    return naming_file([&] {
+        SQLite::Statement count(*database_, "SELECT COUNT(*) FROM run WHERE program_version <> ?");
+        count.bind(1, program_version());
+        count.executeStep();
+        return count.getColumn(0).getInt64();
+    });
 }
 
 }  // namespace gene_clocks::experiment

@@ -59,7 +59,7 @@ struct StoredStudy {
 };
 
 /// The results of runs in one SQLite file. Every function may throw InputError, where the file is
-/// unfit, and SQLite::Exception, where writing fails on the way (a full disk).
+/// unfit, and std::runtime_error, where writing fails on the way (a full disk). Both name the file.
 ///
 /// Invariant: the file holds finished runs only. Each enters it in one transaction, so that nothing
 /// that stops the program, a power cut included, leaves part of a run behind.
@@ -121,6 +121,8 @@ public:
 
 private:
     explicit Store(std::unique_ptr<SQLite::Database> database);
+    template <typename Function>
+    auto naming_file(Function&& function) const;
     void take_over_new_keys();
     void insert_study(const StoredStudy& study);
     void insert_run(const RunRecord& record);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <stdexcept>
 #include <string>
 #include <system_error>
 
@@ -124,6 +125,12 @@ std::unique_ptr<SQLite::Database> open_store_for_reading(const std::filesystem::
     } catch (const SQLite::Exception& error) {
         throw explain(file, error);
     }
+}
+
+void throw_named(const std::filesystem::path& file, const SQLite::Exception& error) {
+    const int code = error.getErrorCode();
+    if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) throw explain(file, error);
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
 }
 
 }  // namespace gene_clocks::experiment

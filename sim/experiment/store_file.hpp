@@ -1,6 +1,7 @@
 #pragma once
 
 #include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Exception.h>
 
 #include <filesystem>
 #include <memory>
@@ -14,5 +15,9 @@ std::unique_ptr<SQLite::Database> open_store_for_writing(const std::filesystem::
 
 /// Opens the SQLite file of a store that exists, for reading. Throws InputError as above.
 std::unique_ptr<SQLite::Database> open_store_for_reading(const std::filesystem::path& file);
+
+/// Throws what an error of an open store means: InputError where the file is damaged, else
+/// std::runtime_error. Either names the file.
+[[noreturn]] void throw_named(const std::filesystem::path& file, const SQLite::Exception& error);
 
 }  // namespace gene_clocks::experiment

@@ -8,8 +8,10 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "example_study.hpp"
 #include "expect_input_error.hpp"
@@ -149,7 +151,7 @@ TEST_F(StoreTest, RefusesARunThatIsThereAlreadyAndKeepsIt) {
     store.put_run(example_run(study.arms[0], 3));
     RunRecord second = example_run(study.arms[0], 3);
     second.result.trajectory_hash = 1;
-    EXPECT_THROW(store.put_run(second), SQLite::Exception);
+    EXPECT_THROW(store.put_run(second), std::runtime_error);
     const StoredStudy stored = store.study("");
     EXPECT_EQ(store.runs(stored, stored.arms[0]).at(0).result.trajectory_hash,
               0xf000'0000'0000'0003);
@@ -157,8 +159,33 @@ TEST_F(StoreTest, RefusesARunThatIsThereAlreadyAndKeepsIt) {
 
 TEST_F(StoreTest, RefusesARunOfSettingsThatItDoesNotKnow) {
     Store store = Store::open_for_writing(file);
-    EXPECT_THROW(store.put_run(example_run(study.arms[0], 3)), SQLite::Exception);
+    EXPECT_THROW(store.put_run(example_run(study.arms[0], 3)), std::runtime_error);
     EXPECT_TRUE(store.finished().empty());
+}
+
+TEST_F(StoreTest, NamesTheFileThatIsDamagedInside) {
+    {
+        Store store = Store::open_for_writing(file);
+        store.put_study(study);
+        for (std::uint64_t seed = 3; seed < 8; ++seed)
+            store.put_run(example_run(study.arms[0], seed));
+    }
+    const std::string whole = test::read_all(file);
+    std::size_t noticed = 0;
+    for (std::size_t page = 1; page < whole.size() / 4096; ++page) {
+        std::string damaged = whole;
+        damaged.replace(4096 * page, 4096, std::string(4096, '\x5a'));
+        std::ofstream(file, std::ios::binary) << damaged;
+        try {
+            const Store store = Store::open_for_reading(file);
+            const StoredStudy stored = store.study("example");
+            for (const StoredArm& arm : stored.arms) static_cast<void>(store.runs(stored, arm));
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr(file + ": is damaged"));
+            ++noticed;
+        }
+    }
+    EXPECT_GT(noticed, 3U);
 }
 
 TEST_F(StoreTest, NamesTheStudiesThatItHas) {
