@@ -56,9 +56,9 @@ void print_paired_row(const PairedContrast& row, std::size_t width, const std::s
         tested(fmt::format("{:.2f}", row.power.equivalence)), name_of(row.verdict));
 }
 
-/// "source=timestamp"; where all that differs are conditions, just that.
+/// "source=timestamp"; where nothing but conditions differs, if that, "nothing else".
 std::string change_text(const PairedContrast& row) {
-    return row.changes.empty() ? "conditions" : fmt::format("{}", fmt::join(row.changes, " "));
+    return row.changes.empty() ? "nothing else" : fmt::format("{}", fmt::join(row.changes, " "));
 }
 
 /// "navigation, source=timestamp", with the profile where that varies; an arm that differs from its

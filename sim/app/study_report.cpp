@@ -26,6 +26,9 @@ std::vector<StoredStudy> named_studies(const Store& store, const std::vector<std
     return studies;
 }
 
+/// Places of arms, by the hash of their settings and by profile.
+using ArmsByKind = std::map<std::pair<std::string, std::string>, std::size_t>;
+
 report::Arm arm_of(const Store& store, const StoredStudy& study,
                    const experiment::StoredArm& stored) {
     report::Arm arm{stored.name, stored.profile, stored.settings, {}};
@@ -40,8 +43,7 @@ report::Arm arm_of(const Store& store, const StoredStudy& study,
 report::Input read_input(const std::filesystem::path& file, const std::vector<std::string>& names) {
     const Store store = Store::open_for_reading(file);
     report::Input input;
-    // By settings and profile: what several studies have in common is one arm, with the most runs.
-    std::map<std::pair<std::string, std::string>, std::size_t> arms;
+    ArmsByKind of_others;  // what several studies have in common is one arm, with the most runs
     input.program_version = experiment::program_version();
     for (const StoredStudy& study : named_studies(store, names)) {
         if (input.study.empty()) {
@@ -50,17 +52,19 @@ report::Input read_input(const std::filesystem::path& file, const std::vector<st
         } else {
             input.title += "; " + study.title;
         }
+        ArmsByKind of_this;
         for (const experiment::StoredArm& stored : study.arms) {
             report::Arm arm = arm_of(store, study, stored);
-            const auto [known, is_new] =
-                arms.emplace(std::pair(stored.settings_hash, stored.profile), input.arms.size());
-            if (is_new) {
+            const auto kind = std::pair(stored.settings_hash, stored.profile);
+            if (const auto other = of_others.find(kind); other != of_others.end()) {
+                auto& runs = input.arms[other->second].runs;
+                if (arm.runs.size() > runs.size()) runs = std::move(arm.runs);
+            } else {
+                of_this.emplace(kind, input.arms.size());
                 input.arms.push_back(std::move(arm));
-            } else if (report::Arm& other = input.arms[known->second];
-                       arm.runs.size() > other.runs.size()) {
-                other.runs = std::move(arm.runs);
             }
         }
+        of_others.merge(of_this);
     }
     return input;
 }
