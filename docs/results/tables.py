@@ -260,7 +260,7 @@ def paired_of(study):
     return table(rows, columns)
 
 
-for swept in ("drift", "loss", "loss-replication", "encounters", "swarm-size", "reboots", "late-joiners", "population",
+for swept in ("drift", "drift-replication", "loss", "loss-replication", "encounters", "swarm-size", "reboots", "late-joiners", "population",
               "mating", "growth", "operators", "equal-weights", "markings-other-profiles", "tuned"):
     TABLES[f"paired {swept}"] = lambda swept=swept: paired_of(swept)
 
