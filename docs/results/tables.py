@@ -5,6 +5,8 @@
     tables.py --check   only looks whether the page says what the data say; fails where it does not
     tables.py --record STUDY COMMIT
                         enters a study's cost, and the commit that made it, in data/provenance.csv
+    tables.py --tuning FOLDER
+                        enters the runs of a finished `./run tune`, in data/tuning-TASK-SOURCE.csv
     tables.py --figures STUDY FOLDER
                         takes the figures that the page shows of a study from its report in FOLDER
 
@@ -15,9 +17,11 @@ makes all three.
 
 import argparse
 import csv
+import json
 import pathlib
 import re
 import shutil
+import sqlite3
 import statistics
 import sys
 
@@ -264,6 +268,44 @@ for swept in ("drift", "drift-replication", "loss", "loss-replication", "encount
               "mating", "growth", "operators", "equal-weights", "markings-other-profiles", "tuned"):
     TABLES[f"paired {swept}"] = lambda swept=swept: paired_of(swept)
 
+def paired_markings():
+    """Seed by seed from the runs alone: 256 are enough for the normal distribution."""
+    normal = statistics.NormalDist()
+    rows = []
+    for task in ("navigation", "collection"):
+        of_task = [arm for arm in arms("markings") if arm.task == task]
+        baseline = {run["seed"]: float(run["f_c"]) for run in of_task[0].runs}
+        for arm in of_task[1:]:
+            differences = [float(run["f_c"]) - baseline[run["seed"]] for run in arm.runs]
+            mean = statistics.fmean(differences)
+            error = statistics.stdev(differences) / len(differences) ** 0.5
+            reach = normal.inv_cdf(0.975) * error
+            p = p_value(2 * normal.cdf(-abs(mean) / error)) if error else "–"
+            rows.append((task, arm.source, f"{signed(mean, 1)} [{signed(mean - reach, 1)}, "
+                         f"{signed(mean + reach, 1)}]", p))
+    columns = [("task", lambda row: row[0]), ("marking", lambda row: f"`{row[1]}`"),
+               ("difference [95 %]", lambda row: row[2]), ("*p*, uncorrected", lambda row: row[3])]
+    return table(rows, columns)
+
+
+TABLES["paired markings"] = paired_markings
+
+
+def tunings():
+    """How far the tunings of a task for its two markings went the same way."""
+    rows = []
+    for task in ("navigation", "collection"):
+        made = [{(run["assignments"], run["seed"]): run["f_c"] for run in read(f"tuning-{task}-{source}.csv")}
+                for source in ("gene-clock", "timestamp")]
+        common = made[0].keys() & made[1].keys()
+        rows.append((task, *map(len, made), len(common),
+                     sum(made[0][run] == made[1][run] for run in common)))
+    headings = ("task", "runs for gene clocks", "for timestamps", "in common", "same *f_c*")
+    return table(rows, [(heading, lambda row, i=i: str(row[i])) for i, heading in enumerate(headings)])
+
+
+TABLES["tunings"] = tunings
+
 PROVENANCE = ("study", "runs", "robot_steps", "cpu_seconds", "commit", "finished_at")
 
 
@@ -279,6 +321,21 @@ def record(study, commit):
         writer = csv.DictWriter(file, PROVENANCE, lineterminator="\n")
         writer.writeheader()
         writer.writerows(sorted([*others, row], key=lambda entry: entry["study"]))
+
+
+def record_tuning(folder):
+    folder = pathlib.Path(folder)
+    selection = json.loads((folder / "tuning.json").read_text(encoding="utf-8"))["settings"]
+    database = sqlite3.connect(f"file:{folder / 'runs.sqlite'}?mode=ro", uri=True)
+    runs = database.execute("SELECT assignments, seed, f_c FROM run ORDER BY assignments, seed")
+    path = HERE / "data" / f"tuning-{selection['task']}-{selection['source']}.csv"
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(("assignments", "seed", "f_c"))
+        for assignments, seed, f_c in runs:
+            values = json.loads(assignments)
+            text = " ".join(f"{key.removeprefix('odneat.')}={values[key]}" for key in sorted(values))
+            writer.writerow((text, seed, repr(f_c)))
 
 
 def take_figures(study, report):
@@ -311,6 +368,7 @@ def main():
     parser.add_argument("--check", action="store_true", help="change nothing, only compare")
     parser.add_argument("--record", nargs=2, metavar=("STUDY", "COMMIT"),
                         help="enter what a study cost")
+    parser.add_argument("--tuning", metavar="FOLDER", help="enter the runs of a tuning")
     parser.add_argument("--figures", nargs=2, metavar=("STUDY", "FOLDER"),
                         help="take the page's figures of a study from its report")
     arguments = parser.parse_args()
@@ -318,12 +376,15 @@ def main():
         if arguments.record:
             record(*arguments.record)
             return
+        if arguments.tuning:
+            record_tuning(arguments.tuning)
+            return
         if arguments.figures:
             take_figures(*arguments.figures)
             return
         old = PAGE.read_text(encoding="utf-8")
         new = with_tables(old)
-    except (OSError, Unfit, KeyError) as error:
+    except (OSError, Unfit, KeyError, ValueError, sqlite3.Error) as error:
         sys.exit(f"tables.py: {error}")
     if arguments.check:
         if old != new:
