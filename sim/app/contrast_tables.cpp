@@ -95,10 +95,9 @@ void write_csv(const std::vector<PairedContrast>& rows, const std::string& measu
                std::ostream& out) {
     fmt::print(out,
                "measure,task,profile,change,first_arm,arms,seeds,identical,baseline_mean,margin,"
-               "difference,"
-               "difference_lower,difference_upper,difference_p_value,difference_p_corrected,"
-               "equivalence_p_value,equivalence_p_corrected,power_equivalence,power_difference,"
-               "verdict\n");
+               "difference,difference_lower,difference_upper,difference_p_value,"
+               "difference_p_corrected,equivalence_p_value,equivalence_p_corrected,"
+               "power_equivalence,power_difference,verdict\n");
     for (const PairedContrast& row : rows) {
         fmt::print(out, "{},{},{},{},{},{},{},{},{},{},", measure, name_of(row.family.first),
                    experiment::csv_field(row.family.second),
