@@ -184,7 +184,7 @@ TEST(ArmLists, RefuseWhatIsUnfit) {
          "x.toml:8: radio.loss: the arm has this key twice"},
         {"[arm.grid]\ntask = [\"collection\"]", "x.toml:7: task: the arm has this key twice"},
         {"settings.task = \"collection\"", "x.toml:6: task: the arm has this key twice"},
-        {"parameters = [\"A\", \"D\"]", "x.toml:3: parameter set \"D\""},
+        {"parameters = [\"A\", \"D\"]", "x.toml:6: parameter set \"D\""},
         {"profile = []", "x.toml:6: profile: the list is empty"},
         {"name = \"a b\"", "x.toml:6: arm.name: expected 1 to 100 letters"},
         {"[arm.linked]\nradio.loss = [0]", "x.toml:6: arm.linked: expected tables [[arm.linked]]"},
