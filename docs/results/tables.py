@@ -306,6 +306,21 @@ def tunings():
 
 TABLES["tunings"] = tunings
 
+
+def disjoint():
+    """Disjoint genes per alignment where messages are lost, over all losses."""
+    rows = []
+    for study in ("loss", "loss-replication"):
+        for source in ("gene-clock", "gene-clock-no-merge"):
+            of_source = [arm for arm in arms(study) if arm.source == source]
+            counts = [sum(arm.total(column) for arm in of_source) for column in ("disjoint", "alignments")]
+            rows.append((f"`{study}`", f"`{source}`", number(counts[0] / counts[1], 2)))
+    headings = ("study", "marking", "disjoint genes per alignment")
+    return table(rows, [(heading, lambda row, i=i: row[i]) for i, heading in enumerate(headings)])
+
+
+TABLES["disjoint"] = disjoint
+
 PROVENANCE = ("study", "runs", "robot_steps", "cpu_seconds", "commit", "finished_at")
 
 

@@ -115,9 +115,8 @@ struct Outputs {
             if (*name == "-")
                 throw InputError("a replay needs a file to go to, not standard output");
         }
-        if (options.output == options.genealogy) {
-            throw InputError("--genealogy: the page goes to that file");
-        }
+        require_different({{"--output", options.output.value_or("")},
+                           {"--genealogy", options.genealogy.value_or("")}});
         if (options.output) page.emplace(*options.output);
         if (options.genealogy) genealogy.emplace(*options.genealogy);
     }

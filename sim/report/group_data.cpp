@@ -47,6 +47,18 @@ Json arm_json(const GroupArm& arm) {
             {"arm", arm.index}};
 }
 
+/// What arm by arm and seed by seed have in common.
+template <typename AnyContrast>
+Json tests_json(const AnyContrast& contrast) {
+    return {{"difference_p_value", contrast.difference_p_value},
+            {"difference_p_corrected", contrast.difference_p_corrected},
+            {"equivalence_p_value", contrast.equivalence_p_value},
+            {"equivalence_p_corrected", contrast.equivalence_p_corrected},
+            {"power_equivalence", contrast.power.equivalence},
+            {"power_difference", contrast.power.difference},
+            {"verdict", name_of(contrast.verdict)}};
+}
+
 Json contrast_json(const Contrast& contrast) {
     return {{"runs", contrast.runs},
             {"baseline_runs", contrast.baseline_runs},
@@ -58,14 +70,7 @@ Json contrast_json(const Contrast& contrast) {
             {"shift", contrast.shift.estimate},
             {"shift_interval", to_json(contrast.shift.interval)},
             {"effect", contrast.effect},
-            {"effect_interval", to_json(contrast.effect_interval)},
-            {"difference_p_value", contrast.difference_p_value},
-            {"difference_p_corrected", contrast.difference_p_corrected},
-            {"equivalence_p_value", contrast.equivalence_p_value},
-            {"equivalence_p_corrected", contrast.equivalence_p_corrected},
-            {"power_equivalence", contrast.power.equivalence},
-            {"power_difference", contrast.power.difference},
-            {"verdict", name_of(contrast.verdict)}};
+            {"effect_interval", to_json(contrast.effect_interval)}};
 }
 
 std::vector<Pairing> with_margin(std::vector<Pairing> pairings, const ContrastPlan& plan) {
@@ -89,6 +94,7 @@ Json contrasts_json(const Group& group, const std::vector<Pairing>& pairings,
         Json row = {{"arm", pairings[i].arm - group.arms.data()},
                     {"baseline", pairings[i].baseline - group.arms.data()}};
         row.update(contrast_json(contrasts[i]));
+        row.update(tests_json(contrasts[i]));
         json.push_back(std::move(row));
     }
     return json;
@@ -102,14 +108,7 @@ Json paired_json(const PairedContrast& contrast) {
             {"baseline_mean", contrast.baseline_mean},
             {"margin", contrast.margin},
             {"difference", contrast.test.mean},
-            {"difference_interval", to_json(contrast.test.interval)},
-            {"difference_p_value", contrast.difference_p_value},
-            {"difference_p_corrected", contrast.difference_p_corrected},
-            {"equivalence_p_value", contrast.equivalence_p_value},
-            {"equivalence_p_corrected", contrast.equivalence_p_corrected},
-            {"power_equivalence", contrast.power.equivalence},
-            {"power_difference", contrast.power.difference},
-            {"verdict", name_of(contrast.verdict)}};
+            {"difference_interval", to_json(contrast.test.interval)}};
 }
 
 /// Whether the two arms of a pairing differ in treatments alone.
@@ -129,8 +128,11 @@ Json paired_contrasts_json(const Group& group, std::vector<Pairing> treatments,
         return !are_under_the_same_conditions(group, pairing);
     });
     Json json = Json::array();
-    for (const PairedContrast& contrast : paired_contrasts(numbers_of(treatments), plan))
-        json.push_back(paired_json(contrast));
+    for (const PairedContrast& contrast : paired_contrasts(numbers_of(treatments), plan)) {
+        Json row = paired_json(contrast);
+        row.update(tests_json(contrast));
+        json.push_back(std::move(row));
+    }
     return json;
 }
 

@@ -15,8 +15,8 @@ namespace gene_clocks::report {
 /// all conditions together: what a sweep as a whole says of that difference.
 ///
 /// A seed's difference is the mean, over the arms, of the arm's value above its baseline's. Those
-/// of two seeds are independent, whatever the runs of one seed have in common; so the tests ask
-/// more of fewer assumptions than those of single arms, and find more.
+/// of two seeds are independent, whatever the runs of one seed have in common: the tests need not
+/// take all runs for independent, as those of single arms do.
 struct PairedContrast {
     Family family;
     std::vector<std::string> changes;  ///< the settings that differ, as in "source=timestamp"

@@ -133,7 +133,8 @@ TEST_F(ReplayTest, WhatCannotBeShownIsRefusedAndNothingIsWritten) {
     refused({"--output", "-"}, "not standard output");
     refused({"--output", "."}, "not a plain file");
     refused({"--output", "no/such/folder/run.html"}, "cannot be written there");
-    refused({"--output", "run.html", "--genealogy", "run.html"}, "the page goes to that file");
+    refused({"--output", "run.html", "--genealogy", "./run.html"},
+            "--genealogy: --output goes to ./run.html already");
     refused({"--output", "run.html", "--genealogy", "no/such/genes.csv"},
             "cannot be written there");
     folder.write("link.toml", "name = 1");
