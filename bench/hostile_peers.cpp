@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "support/hostile_fleet.hpp"
+#include "tests/support/hostile_fleet.hpp"
 
 namespace {
 

@@ -13,17 +13,16 @@
 
 #include <cmath>
 #include <cstdint>
+#include <gene_clocks/align.hpp>
+#include <gene_clocks/neat/agent.hpp>
+#include <gene_clocks/neat/controller.hpp>
+#include <gene_clocks/neat/crossover.hpp>
+#include <gene_clocks/neat/distance.hpp>
+#include <gene_clocks/neat/gene_clock_source.hpp>
+#include <gene_clocks/neat/mutation.hpp>
 #include <memory>
 #include <utility>
 #include <vector>
-
-#include "gene_clocks/align.hpp"
-#include "gene_clocks/neat/agent.hpp"
-#include "gene_clocks/neat/controller.hpp"
-#include "gene_clocks/neat/crossover.hpp"
-#include "gene_clocks/neat/distance.hpp"
-#include "gene_clocks/neat/gene_clock_source.hpp"
-#include "gene_clocks/neat/mutation.hpp"
 
 namespace {
 

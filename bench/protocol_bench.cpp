@@ -3,10 +3,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <gene_clocks/align.hpp>
+#include <gene_clocks/gene_clock.hpp>
 #include <vector>
-
-#include "gene_clocks/align.hpp"
-#include "gene_clocks/gene_clock.hpp"
 
 namespace {
 

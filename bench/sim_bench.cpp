@@ -2,9 +2,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "arena_file.hpp"
-#include "gene_clocks/sim/simulation.hpp"
-#include "profile.hpp"
+#include <gene_clocks/sim/simulation.hpp>
+
+#include "sim/settings/arena_file.hpp"
+#include "sim/settings/profile.hpp"
 
 namespace {
 

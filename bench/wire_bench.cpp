@@ -7,12 +7,12 @@
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
+#include <gene_clocks/neat/message_codec.hpp>
 #include <memory>
 #include <vector>
 
-#include "../tests/support/travelled_genome.hpp"
-#include "../tests/support/wire_messages.hpp"
-#include "gene_clocks/neat/message_codec.hpp"
+#include "tests/support/travelled_genome.hpp"
+#include "tests/support/wire_messages.hpp"
 
 namespace {
 

@@ -1,13 +1,13 @@
 // Differential: align() against the definition of matching, disjoint and excess on sets.
 
 #include <algorithm>
+#include <gene_clocks/align.hpp>
+#include <gene_clocks/innovation_number.hpp>
 #include <set>
 #include <vector>
 
-#include "byte_reader.hpp"
-#include "gene_clocks/align.hpp"
-#include "gene_clocks/innovation_number.hpp"
-#include "require.hpp"
+#include "fuzz/byte_reader.hpp"
+#include "fuzz/require.hpp"
 
 namespace {
 

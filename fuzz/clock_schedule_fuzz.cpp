@@ -3,12 +3,12 @@
 // its robot knows, and no counter passes the maximum. 8-bit counters, so that the end is near.
 
 #include <algorithm>
+#include <gene_clocks/gene_clock.hpp>
 #include <set>
 #include <vector>
 
-#include "byte_reader.hpp"
-#include "gene_clocks/gene_clock.hpp"
-#include "require.hpp"
+#include "fuzz/byte_reader.hpp"
+#include "fuzz/require.hpp"
 
 namespace {
 

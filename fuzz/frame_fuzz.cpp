@@ -2,11 +2,11 @@
 // them; a frame is written again as the very same bytes, and its payload lies within them. The same
 // with the checksum mended, so that what is behind it is reached.
 
+#include <gene_clocks/wire.hpp>
 #include <vector>
 
-#include "../tests/support/wire_messages.hpp"
-#include "gene_clocks/wire.hpp"
-#include "require.hpp"
+#include "fuzz/require.hpp"
+#include "tests/support/wire_messages.hpp"
 
 namespace {
 

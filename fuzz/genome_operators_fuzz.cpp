@@ -1,14 +1,14 @@
 // Property: whatever mutation, crossover and selection do, every genome stays valid, and its marks
 // are one causal chain: a new gene sorts after all genes that its genome had before.
 
+#include <gene_clocks/neat/crossover.hpp>
+#include <gene_clocks/neat/distance.hpp>
+#include <gene_clocks/neat/gene_clock_source.hpp>
+#include <gene_clocks/neat/mutation.hpp>
 #include <vector>
 
-#include "byte_reader.hpp"
-#include "gene_clocks/neat/crossover.hpp"
-#include "gene_clocks/neat/distance.hpp"
-#include "gene_clocks/neat/gene_clock_source.hpp"
-#include "gene_clocks/neat/mutation.hpp"
-#include "require.hpp"
+#include "fuzz/byte_reader.hpp"
+#include "fuzz/require.hpp"
 
 namespace {
 

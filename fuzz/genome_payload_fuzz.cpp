@@ -3,12 +3,12 @@
 // genome, and what it refuses beyond that is only a genome with other initial genes.
 
 #include <algorithm>
+#include <gene_clocks/neat/message_codec.hpp>
 #include <vector>
 
-#include "../tests/support/wire_messages.hpp"
-#include "byte_reader.hpp"
-#include "gene_clocks/neat/message_codec.hpp"
-#include "require.hpp"
+#include "fuzz/byte_reader.hpp"
+#include "fuzz/require.hpp"
+#include "tests/support/wire_messages.hpp"
 
 namespace {
 

@@ -7,11 +7,11 @@
 #include <limits>
 #include <string>
 
-#include "byte_reader.hpp"
-#include "in_process.h"
-#include "replay.hpp"
-#include "require.hpp"
-#include "schedule.hpp"
+#include "fuzz/byte_reader.hpp"
+#include "fuzz/require.hpp"
+#include "proofs/oracle/in_process.h"
+#include "tests/oracle/replay.hpp"
+#include "tests/oracle/schedule.hpp"
 
 namespace {
 

@@ -4,12 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "arena_file.hpp"
-#include "document.hpp"
-#include "input_error.hpp"
-#include "require.hpp"
-#include "settings_io.hpp"
-#include "study.hpp"
+#include "fuzz/require.hpp"
+#include "sim/experiment/study/study.hpp"
+#include "sim/settings/arena_file.hpp"
+#include "sim/settings/document.hpp"
+#include "sim/settings/input_error.hpp"
+#include "sim/settings/settings_io.hpp"
 
 using namespace gene_clocks;
 

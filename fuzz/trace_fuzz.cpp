@@ -10,10 +10,10 @@
 #include <string>
 #include <string_view>
 
-#include "byte_reader.hpp"
-#include "in_process.h"
-#include "require.hpp"
-#include "trace_reader.hpp"
+#include "fuzz/byte_reader.hpp"
+#include "fuzz/require.hpp"
+#include "proofs/oracle/in_process.h"
+#include "protocol/trace/trace_reader.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "require.hpp"
-#include "wire_answer.hpp"
+#include "fuzz/require.hpp"
+#include "tests/oracle/wire_answer.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace gene_clocks;

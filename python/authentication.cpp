@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <gene_clocks/authentication/sealed_frames.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,8 +16,6 @@
 #include <string_view>
 #include <utility>
 #include <variant>
-
-#include "gene_clocks/authentication/sealed_frames.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;

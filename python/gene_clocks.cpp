@@ -8,6 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <gene_clocks/align.hpp>
+#include <gene_clocks/gene_clock.hpp>
+#include <gene_clocks/wire.hpp>
 #include <limits>
 #include <optional>
 #include <random>
@@ -15,10 +18,6 @@
 #include <tuple>
 #include <utility>
 #include <vector>
-
-#include "gene_clocks/align.hpp"
-#include "gene_clocks/gene_clock.hpp"
-#include "gene_clocks/wire.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;

@@ -1,7 +1,7 @@
 /* What firmware calls, by parts: PART_... chooses those that are measured. */
-#include "gene_clocks/genome_payload.h"
-#include "gene_clocks/kernel.h"
-#include "gene_clocks/wire.h"
+#include <gene_clocks/genome_payload.h>
+#include <gene_clocks/kernel.h>
+#include <gene_clocks/wire.h>
 
 #ifdef PART_CLOCK
 bool clock_start(struct gene_clocks_state* state, const struct gene_clocks_limits* limits,

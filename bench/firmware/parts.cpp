@@ -1,13 +1,12 @@
 // What firmware in C++ calls, by parts: PART_... chooses those that are measured.
 #include <cstddef>
 #include <cstdint>
+#include <gene_clocks/align.hpp>
+#include <gene_clocks/flash_store.hpp>
+#include <gene_clocks/gene_clock.hpp>
+#include <gene_clocks/wire.hpp>
 #include <optional>
 #include <span>
-
-#include "gene_clocks/align.hpp"
-#include "gene_clocks/flash_store.hpp"
-#include "gene_clocks/gene_clock.hpp"
-#include "gene_clocks/wire.hpp"
 
 using namespace gene_clocks;
 

@@ -1,8 +1,6 @@
-#include "gene_clocks/neat/agent.hpp"
-
 #include <cassert>
-
-#include "gene_clocks/neat/crossover.hpp"
+#include <gene_clocks/neat/agent.hpp>
+#include <gene_clocks/neat/crossover.hpp>
 
 namespace gene_clocks::neat {
 

@@ -1,11 +1,10 @@
-#include "chronological_distance.hpp"
+#include "neat/src/chronological_distance.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <gene_clocks/align.hpp>
 #include <utility>
-
-#include "gene_clocks/align.hpp"
 
 namespace gene_clocks::neat {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gene_clocks/neat/distance.hpp"
+#include <gene_clocks/neat/distance.hpp>
 
 namespace gene_clocks::neat {
 

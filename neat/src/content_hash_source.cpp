@@ -1,4 +1,4 @@
-#include "gene_clocks/neat/content_hash_source.hpp"
+#include <gene_clocks/neat/content_hash_source.hpp>
 
 // The hash is compiled in, so that users of this library need not link another.
 #define XXH_INLINE_ALL

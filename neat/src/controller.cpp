@@ -1,11 +1,9 @@
-#include "gene_clocks/neat/controller.hpp"
-
 #include <array>
 #include <bit>
 #include <cassert>
+#include <gene_clocks/neat/activation.hpp>
+#include <gene_clocks/neat/controller.hpp>
 #include <utility>
-
-#include "gene_clocks/neat/activation.hpp"
 
 namespace gene_clocks::neat {
 

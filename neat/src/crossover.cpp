@@ -1,11 +1,9 @@
-#include "gene_clocks/neat/crossover.hpp"
-
 #include <algorithm>
 #include <cassert>
+#include <gene_clocks/align.hpp>
+#include <gene_clocks/neat/crossover.hpp>
 #include <utility>
 #include <vector>
-
-#include "gene_clocks/align.hpp"
 
 namespace gene_clocks::neat {
 namespace {

@@ -1,12 +1,11 @@
-#include "gene_clocks/neat/distance.hpp"
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <gene_clocks/neat/distance.hpp>
 #include <span>
 #include <utility>
 
-#include "chronological_distance.hpp"
+#include "neat/src/chronological_distance.hpp"
 
 namespace gene_clocks::neat {
 namespace {

@@ -1,8 +1,7 @@
-#include "gene_clocks/neat/genome.hpp"
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <gene_clocks/neat/genome.hpp>
 
 namespace gene_clocks::neat {
 namespace {

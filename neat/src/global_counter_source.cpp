@@ -1,4 +1,4 @@
-#include "gene_clocks/neat/global_counter_source.hpp"
+#include <gene_clocks/neat/global_counter_source.hpp>
 
 namespace gene_clocks::neat {
 

@@ -1,8 +1,7 @@
-#include "gene_clocks/neat/message_codec.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <gene_clocks/neat/message_codec.hpp>
 #include <random>
 #include <utility>
 

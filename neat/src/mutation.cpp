@@ -1,7 +1,6 @@
-#include "gene_clocks/neat/mutation.hpp"
-
 #include <algorithm>
 #include <cassert>
+#include <gene_clocks/neat/mutation.hpp>
 #include <vector>
 
 namespace gene_clocks::neat {

@@ -1,7 +1,6 @@
-#include "gene_clocks/neat/population.hpp"
-
 #include <algorithm>
 #include <cassert>
+#include <gene_clocks/neat/population.hpp>
 
 namespace gene_clocks::neat {
 

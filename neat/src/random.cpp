@@ -1,6 +1,5 @@
-#include "gene_clocks/neat/random.hpp"
-
 #include <cmath>
+#include <gene_clocks/neat/random.hpp>
 #include <numbers>
 
 namespace gene_clocks::neat {

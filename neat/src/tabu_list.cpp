@@ -1,6 +1,5 @@
-#include "gene_clocks/neat/tabu_list.hpp"
-
 #include <algorithm>
+#include <gene_clocks/neat/tabu_list.hpp>
 
 namespace gene_clocks::neat {
 

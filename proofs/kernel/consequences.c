@@ -2,7 +2,7 @@
  *
  * Every function here is a claim: its contract is proved from the contracts of the kernel's
  * functions alone. It runs nowhere. */
-#include "gene_clocks/kernel.h"
+#include <gene_clocks/kernel.h>
 
 /* Coq: new_gene_is_last, clock_condition (the step from reception to creation). What a robot mints
  * after it has observed a message sorts after every gene of the message and after all that it has

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "commands.hpp"
-#include "input_error.hpp"
-#include "trace_reader.hpp"
+#include "protocol/trace/trace_reader.hpp"
+#include "sim/app/commands.hpp"
+#include "sim/settings/input_error.hpp"
 
 namespace gene_clocks::app {
 namespace {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "run_plan.hpp"
-#include "study.hpp"
+#include "sim/experiment/study/run_plan.hpp"
+#include "sim/experiment/study/study.hpp"
 
 namespace gene_clocks::app {
 

@@ -1,4 +1,4 @@
-#include "conduct.hpp"
+#include "sim/app/conduct.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -8,12 +8,13 @@
 #include <cstdio>
 #include <system_error>
 
-#include "commands.hpp"
-#include "input_error.hpp"
-#include "runner.hpp"
-#include "stop_signal.hpp"
-#include "store.hpp"
-#include "suggestion.hpp"
+#include "sim/app/commands.hpp"
+#include "sim/app/stop_signal.hpp"
+#include "sim/experiment/store/store.hpp"
+#include "sim/experiment/study/runner.hpp"
+#include "sim/settings/input_error.hpp"
+#include "sim/settings/program_version.hpp"
+#include "sim/settings/suggestion.hpp"
 
 namespace gene_clocks::app {
 namespace {

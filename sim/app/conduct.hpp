@@ -6,10 +6,10 @@
 #include <functional>
 #include <vector>
 
-#include "progress.hpp"
-#include "run_plan.hpp"
-#include "runner.hpp"
-#include "study.hpp"
+#include "sim/experiment/study/progress.hpp"
+#include "sim/experiment/study/run_plan.hpp"
+#include "sim/experiment/study/runner.hpp"
+#include "sim/experiment/study/study.hpp"
 
 namespace gene_clocks::app {
 

@@ -3,11 +3,11 @@
 #include <memory>
 #include <optional>
 
-#include "commands.hpp"
-#include "contrast.hpp"
-#include "contrast_tables.hpp"
-#include "output_file.hpp"
-#include "study_report.hpp"
+#include "sim/app/commands.hpp"
+#include "sim/app/contrast_tables.hpp"
+#include "sim/app/output_file.hpp"
+#include "sim/app/study_report.hpp"
+#include "sim/report/contrast.hpp"
 
 namespace gene_clocks::app {
 namespace {

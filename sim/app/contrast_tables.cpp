@@ -1,4 +1,4 @@
-#include "contrast_tables.hpp"
+#include "sim/app/contrast_tables.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "choice_names.hpp"
-#include "csv_export.hpp"
+#include "sim/experiment/store/csv_export.hpp"
+#include "sim/settings/choice_names.hpp"
 
 namespace gene_clocks::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "contrast.hpp"
+#include "sim/report/contrast.hpp"
 
 namespace gene_clocks::app {
 

@@ -1,4 +1,4 @@
-#include "dry_run.hpp"
+#include "sim/app/dry_run.hpp"
 
 #include <fmt/format.h>
 
@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "choice_names.hpp"
-#include "commands.hpp"
-#include "progress.hpp"
-#include "run_estimate.hpp"
-#include "store.hpp"
-#include "suggestion.hpp"
+#include "sim/app/commands.hpp"
+#include "sim/experiment/store/run_estimate.hpp"
+#include "sim/experiment/store/store.hpp"
+#include "sim/experiment/study/progress.hpp"
+#include "sim/settings/choice_names.hpp"
+#include "sim/settings/suggestion.hpp"
 
 namespace gene_clocks::app {
 namespace {

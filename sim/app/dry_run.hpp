@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "run_plan.hpp"
-#include "study.hpp"
+#include "sim/experiment/study/run_plan.hpp"
+#include "sim/experiment/study/study.hpp"
 
 namespace gene_clocks::app {
 

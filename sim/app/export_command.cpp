@@ -3,11 +3,11 @@
 #include <memory>
 #include <optional>
 
-#include "commands.hpp"
-#include "csv_export.hpp"
-#include "input_error.hpp"
-#include "output_file.hpp"
-#include "store.hpp"
+#include "sim/app/commands.hpp"
+#include "sim/app/output_file.hpp"
+#include "sim/experiment/store/csv_export.hpp"
+#include "sim/experiment/store/store.hpp"
+#include "sim/settings/input_error.hpp"
 
 namespace gene_clocks::app {
 namespace {

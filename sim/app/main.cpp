@@ -1,6 +1,6 @@
-#include "conduct.hpp"
-#include "mpi_launch.hpp"
-#include "program.hpp"
+#include "sim/app/conduct.hpp"
+#include "sim/app/mpi_launch.hpp"
+#include "sim/app/program.hpp"
 
 int main(int argc, char** argv) {
     using namespace gene_clocks::app;

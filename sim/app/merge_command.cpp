@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "commands.hpp"
-#include "store_merge.hpp"
+#include "sim/app/commands.hpp"
+#include "sim/experiment/store/store_merge.hpp"
 
 namespace gene_clocks::app {
 namespace {

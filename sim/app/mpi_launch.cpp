@@ -1,4 +1,4 @@
-#include "mpi_launch.hpp"
+#include "sim/app/mpi_launch.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "commands.hpp"
+#include "sim/app/commands.hpp"
 
 namespace gene_clocks::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "output_file.hpp"
+#include "sim/app/output_file.hpp"
 
 #include <iostream>
 #include <map>
@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "input_error.hpp"
+#include "sim/settings/input_error.hpp"
 
 namespace gene_clocks::app {
 

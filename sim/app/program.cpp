@@ -1,4 +1,4 @@
-#include "program.hpp"
+#include "sim/app/program.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "input_error.hpp"
-#include "store.hpp"
-#include "suggestion.hpp"
+#include "sim/experiment/store/store.hpp"
+#include "sim/settings/input_error.hpp"
+#include "sim/settings/program_version.hpp"
+#include "sim/settings/suggestion.hpp"
 
 namespace gene_clocks::app {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "commands.hpp"
+#include "sim/app/commands.hpp"
 
 namespace gene_clocks::app {
 

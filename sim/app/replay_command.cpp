@@ -7,19 +7,20 @@
 #include <optional>
 #include <string>
 
-#include "arena_file.hpp"
-#include "choice_names.hpp"
-#include "commands.hpp"
-#include "genealogy.hpp"
-#include "input_error.hpp"
-#include "output_file.hpp"
-#include "replay_page.hpp"
-#include "replay_recorder.hpp"
-#include "runner.hpp"
-#include "selection_options.hpp"
-#include "settings_io.hpp"
-#include "stop_signal.hpp"
-#include "store.hpp"
+#include "sim/app/commands.hpp"
+#include "sim/app/output_file.hpp"
+#include "sim/app/selection_options.hpp"
+#include "sim/app/stop_signal.hpp"
+#include "sim/experiment/store/store.hpp"
+#include "sim/experiment/study/runner.hpp"
+#include "sim/replay/genealogy.hpp"
+#include "sim/replay/replay_page.hpp"
+#include "sim/replay/replay_recorder.hpp"
+#include "sim/settings/arena_file.hpp"
+#include "sim/settings/choice_names.hpp"
+#include "sim/settings/input_error.hpp"
+#include "sim/settings/program_version.hpp"
+#include "sim/settings/settings_io.hpp"
 
 namespace gene_clocks::app {
 namespace {

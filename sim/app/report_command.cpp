@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "commands.hpp"
-#include "study_report.hpp"
+#include "sim/app/commands.hpp"
+#include "sim/app/study_report.hpp"
 
 namespace gene_clocks::app {
 namespace {

@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "commands.hpp"
-#include "conduct.hpp"
-#include "document.hpp"
-#include "page_program.hpp"
-#include "study_options.hpp"
-#include "study_report.hpp"
+#include "sim/app/commands.hpp"
+#include "sim/app/conduct.hpp"
+#include "sim/app/study_options.hpp"
+#include "sim/app/study_report.hpp"
+#include "sim/report/page_program.hpp"
+#include "sim/settings/document.hpp"
 
 namespace gene_clocks::app {
 namespace {

@@ -1,11 +1,11 @@
-#include "selection_options.hpp"
+#include "sim/app/selection_options.hpp"
 
 #include <fmt/format.h>
 
-#include "choice_names.hpp"
-#include "document.hpp"
-#include "settings_io.hpp"
-#include "suggestion.hpp"
+#include "sim/settings/choice_names.hpp"
+#include "sim/settings/document.hpp"
+#include "sim/settings/settings_io.hpp"
+#include "sim/settings/suggestion.hpp"
 
 namespace gene_clocks::app {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <gene_clocks/sim/settings.hpp>
 #include <string>
 #include <vector>
 
-#include "gene_clocks/sim/settings.hpp"
-#include "profile.hpp"
+#include "sim/settings/profile.hpp"
 
 namespace gene_clocks::app {
 

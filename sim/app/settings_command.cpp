@@ -3,13 +3,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
-#include "embedded_files.hpp"
-#include "input_error.hpp"
-#include "selection_options.hpp"
-#include "settings_help.hpp"
-#include "settings_io.hpp"
-#include "suggestion.hpp"
+#include "sim/app/commands.hpp"
+#include "sim/app/selection_options.hpp"
+#include "sim/settings/embedded_files.hpp"
+#include "sim/settings/input_error.hpp"
+#include "sim/settings/settings_help.hpp"
+#include "sim/settings/settings_io.hpp"
+#include "sim/settings/suggestion.hpp"
 
 namespace gene_clocks::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "stop_signal.hpp"
+#include "sim/app/stop_signal.hpp"
 
 #include <csignal>
 

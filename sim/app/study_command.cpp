@@ -3,12 +3,12 @@
 #include <memory>
 #include <utility>
 
-#include "commands.hpp"
-#include "document.hpp"
-#include "dry_run.hpp"
-#include "run_plan.hpp"
-#include "study.hpp"
-#include "study_options.hpp"
+#include "sim/app/commands.hpp"
+#include "sim/app/dry_run.hpp"
+#include "sim/app/study_options.hpp"
+#include "sim/experiment/study/run_plan.hpp"
+#include "sim/experiment/study/study.hpp"
+#include "sim/settings/document.hpp"
 
 namespace gene_clocks::app {
 namespace {

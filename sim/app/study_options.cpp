@@ -1,8 +1,8 @@
-#include "study_options.hpp"
+#include "sim/app/study_options.hpp"
 
 #include <fmt/format.h>
 
-#include "selection_options.hpp"
+#include "sim/app/selection_options.hpp"
 
 namespace gene_clocks::app {
 

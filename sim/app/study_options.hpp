@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "run_plan.hpp"
-#include "study.hpp"
+#include "sim/experiment/study/run_plan.hpp"
+#include "sim/experiment/study/study.hpp"
 
 namespace gene_clocks::app {
 

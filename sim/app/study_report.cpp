@@ -1,4 +1,4 @@
-#include "study_report.hpp"
+#include "sim/app/study_report.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,9 @@
 #include <set>
 #include <utility>
 
-#include "report.hpp"
-#include "store.hpp"
+#include "sim/experiment/store/store.hpp"
+#include "sim/report/report.hpp"
+#include "sim/settings/program_version.hpp"
 
 namespace gene_clocks::app {
 namespace {

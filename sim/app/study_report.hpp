@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report.hpp"
+#include "sim/report/report.hpp"
 
 namespace gene_clocks::app {
 

@@ -1,6 +1,6 @@
-#include "trace_file.hpp"
+#include "sim/app/trace_file.hpp"
 
-#include "input_error.hpp"
+#include "sim/settings/input_error.hpp"
 
 namespace gene_clocks::app {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "output_file.hpp"
-#include "runner.hpp"
-#include "trace_recorder.hpp"
+#include "sim/app/output_file.hpp"
+#include "sim/app/trace_recorder.hpp"
+#include "sim/experiment/study/runner.hpp"
 
 namespace gene_clocks::app {
 

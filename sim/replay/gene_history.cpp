@@ -1,4 +1,4 @@
-#include "gene_history.hpp"
+#include "sim/replay/gene_history.hpp"
 
 #include <algorithm>
 

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <gene_clocks/innovation_number.hpp>
+#include <gene_clocks/neat/genome.hpp>
+#include <gene_clocks/sim/swarm_view.hpp>
 #include <map>
 #include <memory>
 #include <unordered_map>
 #include <vector>
-
-#include "gene_clocks/innovation_number.hpp"
-#include "gene_clocks/neat/genome.hpp"
-#include "gene_clocks/sim/swarm_view.hpp"
 
 namespace gene_clocks::replay {
 

@@ -1,14 +1,13 @@
-#include "genealogy.hpp"
+#include "sim/replay/genealogy.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <gene_clocks/neat/innovation_source.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
-
-#include "gene_clocks/neat/innovation_source.hpp"
 
 namespace gene_clocks::replay {
 namespace {

@@ -5,7 +5,7 @@
 #include <ostream>
 #include <vector>
 
-#include "gene_history.hpp"
+#include "sim/replay/gene_history.hpp"
 
 namespace gene_clocks::replay {
 

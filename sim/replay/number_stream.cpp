@@ -1,4 +1,4 @@
-#include "number_stream.hpp"
+#include "sim/replay/number_stream.hpp"
 
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>

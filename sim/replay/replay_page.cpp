@@ -1,18 +1,18 @@
-#include "replay_page.hpp"
+#include "sim/replay/replay_page.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <gene_clocks/neat/innovation_source.hpp>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
 
-#include "arena_file.hpp"
-#include "choice_names.hpp"
-#include "embedded_files.hpp"
-#include "gene_clocks/neat/innovation_source.hpp"
-#include "genealogy.hpp"
+#include "sim/replay/genealogy.hpp"
+#include "sim/settings/arena_file.hpp"
+#include "sim/settings/choice_names.hpp"
+#include "sim/settings/embedded_files.hpp"
 
 namespace gene_clocks::replay {
 namespace {

@@ -1,14 +1,14 @@
 #pragma once
 
+#include <gene_clocks/sim/arena.hpp>
+#include <gene_clocks/sim/settings.hpp>
+#include <gene_clocks/sim/simulation.hpp>
 #include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "gene_clocks/sim/arena.hpp"
-#include "gene_clocks/sim/settings.hpp"
-#include "gene_clocks/sim/simulation.hpp"
-#include "replay_recorder.hpp"
+#include "sim/replay/replay_recorder.hpp"
 
 namespace gene_clocks::replay {
 

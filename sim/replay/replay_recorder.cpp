@@ -1,4 +1,4 @@
-#include "replay_recorder.hpp"
+#include "sim/replay/replay_recorder.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <gene_clocks/sim/run_observer.hpp>
+#include <gene_clocks/sim/settings.hpp>
+#include <gene_clocks/sim/swarm_view.hpp>
 #include <vector>
 
-#include "gene_clocks/sim/run_observer.hpp"
-#include "gene_clocks/sim/settings.hpp"
-#include "gene_clocks/sim/swarm_view.hpp"
-#include "gene_history.hpp"
-#include "number_stream.hpp"
+#include "sim/replay/gene_history.hpp"
+#include "sim/replay/number_stream.hpp"
 
 namespace gene_clocks::replay {
 

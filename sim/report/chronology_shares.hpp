@@ -2,10 +2,9 @@
 
 #include <array>
 #include <cstdint>
+#include <gene_clocks/sim/simulation.hpp>
 #include <optional>
 #include <string_view>
-
-#include "gene_clocks/sim/simulation.hpp"
 
 namespace gene_clocks::report {
 

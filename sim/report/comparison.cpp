@@ -1,4 +1,4 @@
-#include "comparison.hpp"
+#include "sim/report/comparison.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,12 @@
 #include <map>
 #include <utility>
 
-#include "input_error.hpp"
-#include "measures.hpp"
-#include "profile.hpp"
-#include "published.hpp"
-#include "settings_table.hpp"
-#include "summary.hpp"
+#include "sim/experiment/study/summary.hpp"
+#include "sim/report/measures.hpp"
+#include "sim/report/published.hpp"
+#include "sim/settings/input_error.hpp"
+#include "sim/settings/profile.hpp"
+#include "sim/settings/settings_table.hpp"
 
 namespace gene_clocks::report {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "report.hpp"
+#include "sim/report/report.hpp"
 
 namespace gene_clocks::report {
 

@@ -1,14 +1,14 @@
-#include "contrast.hpp"
+#include "sim/report/contrast.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
 
-#include "input_error.hpp"
-#include "statistics/bootstrap.hpp"
-#include "statistics/mann_whitney.hpp"
-#include "statistics/quantiles.hpp"
+#include "sim/settings/input_error.hpp"
+#include "sim/statistics/bootstrap.hpp"
+#include "sim/statistics/mann_whitney.hpp"
+#include "sim/statistics/quantiles.hpp"
 
 namespace gene_clocks::report {
 namespace {

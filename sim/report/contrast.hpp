@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "comparison.hpp"
-#include "contrast_plan.hpp"
-#include "paired_contrast.hpp"
-#include "report.hpp"
-#include "statistics/equivalence.hpp"
+#include "sim/report/comparison.hpp"
+#include "sim/report/contrast_plan.hpp"
+#include "sim/report/paired_contrast.hpp"
+#include "sim/report/report.hpp"
+#include "sim/statistics/equivalence.hpp"
 
 namespace gene_clocks::report {
 

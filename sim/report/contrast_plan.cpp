@@ -1,4 +1,4 @@
-#include "contrast_plan.hpp"
+#include "sim/report/contrast_plan.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,12 +7,12 @@
 #include <map>
 #include <stdexcept>
 
-#include "input_error.hpp"
-#include "measures.hpp"
-#include "settings_io.hpp"
-#include "settings_table.hpp"
-#include "statistics/quantiles.hpp"
-#include "suggestion.hpp"
+#include "sim/report/measures.hpp"
+#include "sim/settings/input_error.hpp"
+#include "sim/settings/settings_io.hpp"
+#include "sim/settings/settings_table.hpp"
+#include "sim/settings/suggestion.hpp"
+#include "sim/statistics/quantiles.hpp"
 
 namespace gene_clocks::report {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "comparison.hpp"
-#include "statistics/equivalence.hpp"
+#include "sim/report/comparison.hpp"
+#include "sim/statistics/equivalence.hpp"
 
 namespace gene_clocks::report {
 

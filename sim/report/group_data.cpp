@@ -1,12 +1,12 @@
-#include "group_data.hpp"
+#include "sim/report/group_data.hpp"
 
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <variant>
 
-#include "choice_names.hpp"
-#include "contrast.hpp"
-#include "study_design.hpp"
+#include "sim/report/contrast.hpp"
+#include "sim/report/study_design.hpp"
+#include "sim/settings/choice_names.hpp"
 
 namespace gene_clocks::report {
 namespace {

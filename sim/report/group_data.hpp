@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "comparison.hpp"
+#include "sim/report/comparison.hpp"
 
 namespace gene_clocks::report {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "summary.hpp"
+#include "sim/experiment/study/summary.hpp"
 
 namespace gene_clocks::report {
 

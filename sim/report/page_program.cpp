@@ -1,4 +1,4 @@
-#include "page_program.hpp"
+#include "sim/report/page_program.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -15,8 +15,8 @@
 #include <system_error>
 #include <vector>
 
-#include "embedded_files.hpp"
-#include "input_error.hpp"
+#include "sim/settings/embedded_files.hpp"
+#include "sim/settings/input_error.hpp"
 
 namespace gene_clocks::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "paired_contrast.hpp"
+#include "sim/report/paired_contrast.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <optional>
 #include <utility>
 
-#include "input_error.hpp"
-#include "settings_table.hpp"
-#include "statistics/quantiles.hpp"
+#include "sim/settings/input_error.hpp"
+#include "sim/settings/settings_table.hpp"
+#include "sim/statistics/quantiles.hpp"
 
 namespace gene_clocks::report {
 namespace {

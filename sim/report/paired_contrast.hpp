@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "comparison.hpp"
-#include "contrast_plan.hpp"
-#include "statistics/paired.hpp"
+#include "sim/report/comparison.hpp"
+#include "sim/report/contrast_plan.hpp"
+#include "sim/statistics/paired.hpp"
 
 namespace gene_clocks::report {
 

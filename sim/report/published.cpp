@@ -1,12 +1,12 @@
-#include "published.hpp"
+#include "sim/report/published.hpp"
 
 #include <array>
 #include <limits>
 #include <string_view>
 
-#include "choice_names.hpp"
-#include "embedded_files.hpp"
-#include "measures.hpp"
+#include "sim/report/measures.hpp"
+#include "sim/settings/choice_names.hpp"
+#include "sim/settings/embedded_files.hpp"
 
 namespace gene_clocks::report {
 namespace {

@@ -2,14 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <gene_clocks/sim/settings.hpp>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "document.hpp"
-#include "gene_clocks/sim/settings.hpp"
+#include "sim/settings/document.hpp"
 
 namespace gene_clocks::report {
 

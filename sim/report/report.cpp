@@ -1,10 +1,10 @@
-#include "report.hpp"
+#include "sim/report/report.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "input_error.hpp"
-#include "page_program.hpp"
-#include "report_data.hpp"
+#include "sim/report/page_program.hpp"
+#include "sim/report/report_data.hpp"
+#include "sim/settings/input_error.hpp"
 
 namespace gene_clocks::report {
 

@@ -2,11 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <gene_clocks/sim/settings.hpp>
+#include <gene_clocks/sim/simulation.hpp>
 #include <string>
 #include <vector>
-
-#include "gene_clocks/sim/settings.hpp"
-#include "gene_clocks/sim/simulation.hpp"
 
 namespace gene_clocks::report {
 

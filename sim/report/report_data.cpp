@@ -1,4 +1,4 @@
-#include "report_data.hpp"
+#include "sim/report/report_data.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,19 +11,19 @@
 #include <variant>
 #include <vector>
 
-#include "choice_names.hpp"
-#include "chronology_shares.hpp"
-#include "comparison.hpp"
-#include "group_data.hpp"
-#include "input_error.hpp"
-#include "measures.hpp"
-#include "profile.hpp"
-#include "published.hpp"
-#include "settings_table.hpp"
-#include "statistics/bootstrap.hpp"
-#include "statistics/mann_whitney.hpp"
-#include "statistics/quantiles.hpp"
-#include "verdicts.hpp"
+#include "sim/report/chronology_shares.hpp"
+#include "sim/report/comparison.hpp"
+#include "sim/report/group_data.hpp"
+#include "sim/report/measures.hpp"
+#include "sim/report/published.hpp"
+#include "sim/report/verdicts.hpp"
+#include "sim/settings/choice_names.hpp"
+#include "sim/settings/input_error.hpp"
+#include "sim/settings/profile.hpp"
+#include "sim/settings/settings_table.hpp"
+#include "sim/statistics/bootstrap.hpp"
+#include "sim/statistics/mann_whitney.hpp"
+#include "sim/statistics/quantiles.hpp"
 
 namespace gene_clocks::report {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "report.hpp"
+#include "sim/report/report.hpp"
 
 namespace gene_clocks::report {
 

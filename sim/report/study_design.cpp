@@ -1,4 +1,4 @@
-#include "study_design.hpp"
+#include "sim/report/study_design.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "input_error.hpp"
-#include "profile.hpp"
+#include "sim/settings/input_error.hpp"
+#include "sim/settings/profile.hpp"
 
 namespace gene_clocks::report {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "comparison.hpp"
-#include "settings_table.hpp"
+#include "sim/report/comparison.hpp"
+#include "sim/settings/settings_table.hpp"
 
 namespace gene_clocks::report {
 

@@ -1,11 +1,11 @@
-#include "verdicts.hpp"
+#include "sim/report/verdicts.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "measures.hpp"
-#include "statistics/mann_whitney.hpp"
-#include "statistics/quantiles.hpp"
+#include "sim/report/measures.hpp"
+#include "sim/statistics/mann_whitney.hpp"
+#include "sim/statistics/quantiles.hpp"
 
 namespace gene_clocks::report {
 namespace {

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "comparison.hpp"
-#include "published.hpp"
-#include "statistics/bootstrap.hpp"
+#include "sim/report/comparison.hpp"
+#include "sim/report/published.hpp"
+#include "sim/statistics/bootstrap.hpp"
 
 namespace gene_clocks::report {
 

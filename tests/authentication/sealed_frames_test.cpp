@@ -1,16 +1,15 @@
 // Without the key nothing gets in, and nothing gets in twice.
-#include "gene_clocks/authentication/sealed_frames.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <gene_clocks/authentication/sealed_frames.hpp>
 #include <limits>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "support/property.hpp"
-#include "support/wire_vectors.hpp"
+#include "tests/support/property.hpp"
+#include "tests/support/wire_vectors.hpp"
 
 namespace gene_clocks::authentication {
 namespace {

@@ -4,11 +4,11 @@
 //
 // Usage: vectors FILE
 #include <cstdio>
+#include <gene_clocks/stored_counter.hpp>
 #include <string>
 
-#include "gene_clocks/stored_counter.hpp"
-#include "protocol/wire_in_c.h"
-#include "support/wire_vectors.hpp"
+#include "tests/protocol/wire_in_c.h"
+#include "tests/support/wire_vectors.hpp"
 
 namespace {
 

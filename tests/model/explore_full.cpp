@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "explorer.hpp"
-#include "scopes.hpp"
+#include "tests/model/explorer.hpp"
+#include "tests/model/scopes.hpp"
 
 int main() {
     using namespace gene_clocks::model;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "swarm.hpp"
+#include "tests/model/swarm.hpp"
 
 namespace gene_clocks::model {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "explorer.hpp"
-#include "scopes.hpp"
+#include "tests/model/explorer.hpp"
+#include "tests/model/scopes.hpp"
 
 namespace gene_clocks::model {
 namespace {

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <gene_clocks/gene_clock.hpp>
 #include <limits>
 #include <optional>
 #include <span>
 #include <tuple>
-
-#include "gene_clocks/gene_clock.hpp"
 
 /// The rules of the protocol, each in a place of its own, so that one at a time can be broken. They
 /// are those of the record `rules` in proofs/theories/Protocol.v, and run the shipped clock.

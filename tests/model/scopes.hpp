@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <ostream>
 
-#include "swarm.hpp"
+#include "tests/model/swarm.hpp"
 
 namespace gene_clocks::model {
 

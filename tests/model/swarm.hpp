@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "rules.hpp"
+#include "tests/model/rules.hpp"
 
 namespace gene_clocks::model {
 

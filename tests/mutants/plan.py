@@ -17,7 +17,7 @@ WIRE = programs("unit", "protocol", "wire")
 CODEC = programs("unit", "neat", "message_codec")
 STORAGE = programs("unit", "storage", "stored_counter", "file_store")
 POWER_CUTS = programs("explorer", "storage", "simulated_disk")
-TRACE = programs("unit", "sim/trace", "trace")
+TRACE = programs("unit", "protocol/trace", "trace")
 MUST_NOT_COMPILE = Step("must not compile", (), r"^protocol\.must_not_compile\.")
 PAPER = programs("paper", "paper", "section_2_related_work", "section_3_1_marking",
                  "section_3_2_algorithm", "section_3_2_variation")
@@ -46,11 +46,11 @@ AREAS = {
     "protocol/": [MUST_NOT_COMPILE, PROTOCOL, SWARMS, EXPLORER, ORACLE, FUZZ, PAPER, NEAT, OPERATORS,
                   TRACE],
     "neat/": [NEAT, OPERATORS, PAPER, FUZZ],
-    "sim/trace/": [TRACE, ORACLE, FUZZ],
-    "sim/experiment/statistics/": [STATISTICS],
+    "protocol/trace/": [TRACE, ORACLE, FUZZ],
+    "sim/statistics/": [STATISTICS],
     "sim/report/": [CONTRASTS],
-    "sim/src/task.cpp": [EXPERIMENTS],
-    "sim/src/": [CORE, EXPERIMENTS],
+    "sim/core/src/task.cpp": [EXPERIMENTS],
+    "sim/core/src/": [CORE, EXPERIMENTS],
     "sim/": [EXPERIMENTS],
     "fuzz/": [FUZZ],
     "tests/model/": [EXPLORER],

@@ -1,10 +1,9 @@
-#include "gene_clocks/neat/activation.hpp"
-
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <gene_clocks/neat/activation.hpp>
 #include <limits>
 
 namespace gene_clocks::neat {

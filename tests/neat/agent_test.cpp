@@ -1,13 +1,12 @@
-#include "gene_clocks/neat/agent.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <gene_clocks/neat/agent.hpp>
 #include <limits>
 #include <vector>
 
-#include "sample_genomes.hpp"
+#include "tests/neat/sample_genomes.hpp"
 
 namespace gene_clocks::neat {
 namespace {

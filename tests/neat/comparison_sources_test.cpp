@@ -2,17 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <gene_clocks/neat/congruence_class_source.hpp>
+#include <gene_clocks/neat/content_hash_source.hpp>
+#include <gene_clocks/neat/global_counter_source.hpp>
+#include <gene_clocks/neat/hybrid_logical_clock_source.hpp>
+#include <gene_clocks/neat/mutation.hpp>
+#include <gene_clocks/neat/random_identifier_source.hpp>
+#include <gene_clocks/neat/unmerged_gene_clock_source.hpp>
 #include <limits>
 #include <set>
 
-#include "gene_clocks/neat/congruence_class_source.hpp"
-#include "gene_clocks/neat/content_hash_source.hpp"
-#include "gene_clocks/neat/global_counter_source.hpp"
-#include "gene_clocks/neat/hybrid_logical_clock_source.hpp"
-#include "gene_clocks/neat/mutation.hpp"
-#include "gene_clocks/neat/random_identifier_source.hpp"
-#include "gene_clocks/neat/unmerged_gene_clock_source.hpp"
-#include "sample_genomes.hpp"
+#include "tests/neat/sample_genomes.hpp"
 
 namespace gene_clocks::neat {
 namespace {

@@ -1,13 +1,12 @@
-#include "gene_clocks/neat/controller.hpp"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <gene_clocks/neat/controller.hpp>
 #include <map>
 #include <vector>
 
-#include "sample_genomes.hpp"
+#include "tests/neat/sample_genomes.hpp"
 
 namespace gene_clocks::neat {
 namespace {

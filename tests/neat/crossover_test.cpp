@@ -1,14 +1,13 @@
-#include "gene_clocks/neat/crossover.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <gene_clocks/neat/crossover.hpp>
 #include <map>
 #include <set>
 #include <vector>
 
-#include "sample_genomes.hpp"
+#include "tests/neat/sample_genomes.hpp"
 
 namespace gene_clocks::neat {
 namespace {

@@ -1,14 +1,13 @@
-#include "gene_clocks/neat/distance.hpp"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <gene_clocks/neat/distance.hpp>
 #include <map>
 #include <utility>
 
-#include "sample_genomes.hpp"
+#include "tests/neat/sample_genomes.hpp"
 
 namespace gene_clocks::neat {
 namespace {

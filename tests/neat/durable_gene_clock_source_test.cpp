@@ -1,12 +1,11 @@
-#include "gene_clocks/neat/durable_gene_clock_source.hpp"
-
 #include <gtest/gtest.h>
 
+#include <gene_clocks/neat/agent.hpp>
+#include <gene_clocks/neat/durable_gene_clock_source.hpp>
 #include <memory>
 #include <set>
 
-#include "gene_clocks/neat/agent.hpp"
-#include "sample_genomes.hpp"
+#include "tests/neat/sample_genomes.hpp"
 
 namespace gene_clocks::neat {
 namespace {

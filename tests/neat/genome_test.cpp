@@ -1,12 +1,11 @@
-#include "gene_clocks/neat/genome.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <gene_clocks/neat/genome.hpp>
 #include <limits>
 #include <set>
 
-#include "sample_genomes.hpp"
+#include "tests/neat/sample_genomes.hpp"
 
 namespace gene_clocks::neat {
 namespace {

@@ -1,15 +1,14 @@
 // Messages through the wire format: what comes out is valid, whatever goes in.
-#include "gene_clocks/neat/message_codec.hpp"
-
 #include <gtest/gtest.h>
 
+#include <gene_clocks/neat/message_codec.hpp>
 #include <limits>
 #include <set>
 
-#include "sample_genomes.hpp"
-#include "support/allocations.hpp"
-#include "support/wire_messages.hpp"
-#include "support/wire_vectors.hpp"
+#include "tests/neat/sample_genomes.hpp"
+#include "tests/support/allocations.hpp"
+#include "tests/support/wire_messages.hpp"
+#include "tests/support/wire_vectors.hpp"
 
 namespace gene_clocks::neat {
 namespace {

@@ -1,13 +1,12 @@
-#include "gene_clocks/neat/mutation.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <gene_clocks/neat/mutation.hpp>
 #include <map>
 
-#include "sample_genomes.hpp"
+#include "tests/neat/sample_genomes.hpp"
 
 namespace gene_clocks::neat {
 namespace {

@@ -2,15 +2,15 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <gene_clocks/neat/crossover.hpp>
+#include <gene_clocks/neat/distance.hpp>
+#include <gene_clocks/neat/timestamp_source.hpp>
 #include <map>
 #include <set>
 #include <utility>
 #include <vector>
 
-#include "gene_clocks/neat/crossover.hpp"
-#include "gene_clocks/neat/distance.hpp"
-#include "gene_clocks/neat/timestamp_source.hpp"
-#include "sample_genomes.hpp"
+#include "tests/neat/sample_genomes.hpp"
 
 // What holds for every genome after any sequence of operators, by robots that exchange genomes.
 

@@ -1,11 +1,10 @@
-#include "gene_clocks/neat/population.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <gene_clocks/neat/population.hpp>
 #include <vector>
 
-#include "sample_genomes.hpp"
+#include "tests/neat/sample_genomes.hpp"
 
 namespace gene_clocks::neat {
 namespace {

@@ -1,11 +1,10 @@
-#include "gene_clocks/neat/random.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <gene_clocks/neat/random.hpp>
 #include <vector>
 
 namespace gene_clocks::neat {

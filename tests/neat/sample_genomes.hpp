@@ -3,15 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <gene_clocks/neat/gene_clock_source.hpp>
+#include <gene_clocks/neat/genome.hpp>
+#include <gene_clocks/neat/mutation.hpp>
+#include <gene_clocks/neat/settings.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "gene_clocks/neat/gene_clock_source.hpp"
-#include "gene_clocks/neat/genome.hpp"
-#include "gene_clocks/neat/mutation.hpp"
-#include "gene_clocks/neat/settings.hpp"
 
 // Small genomes with known genes, for the tests of this folder.
 

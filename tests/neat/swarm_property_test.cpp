@@ -6,19 +6,19 @@
 #include <boost/graph/small_world_generator.hpp>
 #include <boost/random/linear_congruential.hpp>
 #include <functional>
+#include <gene_clocks/neat/agent.hpp>
+#include <gene_clocks/neat/congruence_class_source.hpp>
+#include <gene_clocks/neat/content_hash_source.hpp>
+#include <gene_clocks/neat/global_counter_source.hpp>
+#include <gene_clocks/neat/hybrid_logical_clock_source.hpp>
+#include <gene_clocks/neat/random_identifier_source.hpp>
+#include <gene_clocks/neat/timestamp_source.hpp>
+#include <gene_clocks/neat/unmerged_gene_clock_source.hpp>
 #include <map>
 #include <set>
 #include <vector>
 
-#include "gene_clocks/neat/agent.hpp"
-#include "gene_clocks/neat/congruence_class_source.hpp"
-#include "gene_clocks/neat/content_hash_source.hpp"
-#include "gene_clocks/neat/global_counter_source.hpp"
-#include "gene_clocks/neat/hybrid_logical_clock_source.hpp"
-#include "gene_clocks/neat/random_identifier_source.hpp"
-#include "gene_clocks/neat/timestamp_source.hpp"
-#include "gene_clocks/neat/unmerged_gene_clock_source.hpp"
-#include "sample_genomes.hpp"
+#include "tests/neat/sample_genomes.hpp"
 
 // Agents that exchange genomes over random graphs, on a radio that loses, repeats, delays and
 // reorders messages; and a checker that watches from outside, with vector clocks.

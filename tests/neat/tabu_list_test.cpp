@@ -1,12 +1,11 @@
-#include "gene_clocks/neat/tabu_list.hpp"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <gene_clocks/neat/tabu_list.hpp>
 #include <utility>
 #include <vector>
 
-#include "sample_genomes.hpp"
+#include "tests/neat/sample_genomes.hpp"
 
 namespace gene_clocks::neat {
 namespace {

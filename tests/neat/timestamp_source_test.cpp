@@ -1,10 +1,9 @@
-#include "gene_clocks/neat/timestamp_source.hpp"
-
 #include <gtest/gtest.h>
 
+#include <gene_clocks/neat/timestamp_source.hpp>
 #include <limits>
 
-#include "sample_genomes.hpp"
+#include "tests/neat/sample_genomes.hpp"
 
 namespace gene_clocks::neat {
 namespace {

@@ -2,13 +2,13 @@
 // other formats.
 
 #include <cstdio>
+#include <gene_clocks/neat/message_codec.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "../support/travelled_genome.hpp"
-#include "gene_clocks/neat/message_codec.hpp"
+#include "tests/support/travelled_genome.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "trace_reader.hpp"
+#include "protocol/trace/trace_reader.hpp"
 
 namespace {
 

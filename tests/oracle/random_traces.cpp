@@ -11,6 +11,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <gene_clocks/gene_clock.hpp>
 #include <limits>
 #include <map>
 #include <random>
@@ -20,9 +21,8 @@
 #include <utility>
 #include <vector>
 
-#include "gene_clocks/gene_clock.hpp"
-#include "trace_writer.hpp"
-#include "words.hpp"
+#include "protocol/trace/trace_writer.hpp"
+#include "tests/oracle/words.hpp"
 
 namespace gene_clocks::test {
 namespace {

@@ -3,7 +3,7 @@
 //
 // Usage: replay 8|64        (width of a counter in bits)
 
-#include "replay.hpp"
+#include "tests/oracle/replay.hpp"
 
 #include <fmt/core.h>
 

@@ -6,6 +6,8 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <gene_clocks/align.hpp>
+#include <gene_clocks/gene_clock.hpp>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -17,9 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "gene_clocks/align.hpp"
-#include "gene_clocks/gene_clock.hpp"
-#include "words.hpp"
+#include "tests/oracle/words.hpp"
 
 namespace gene_clocks::test {
 

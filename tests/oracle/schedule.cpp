@@ -2,7 +2,7 @@
 //
 // Usage: schedule 8|64 SEED COMMANDS        (width of a counter in bits)
 
-#include "schedule.hpp"
+#include "tests/oracle/schedule.hpp"
 
 #include <fmt/core.h>
 
@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "words.hpp"
+#include "tests/oracle/words.hpp"
 
 namespace {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include "../support/wire_messages.hpp"
-#include "in_process.h"
+#include "proofs/oracle/in_process.h"
+#include "tests/support/wire_messages.hpp"
 
 // The wire format's two decoders side by side: the shipped one and the proved one.
 

@@ -3,12 +3,12 @@
 // a checksum of their own or none.
 #include <gtest/gtest.h>
 
+#include <gene_clocks/neat/message_codec.hpp>
 #include <map>
 #include <vector>
 
-#include "../support/travelled_genome.hpp"
-#include "gene_clocks/neat/message_codec.hpp"
-#include "wire_answer.hpp"
+#include "tests/oracle/wire_answer.hpp"
+#include "tests/support/travelled_genome.hpp"
 
 namespace gene_clocks {
 namespace {

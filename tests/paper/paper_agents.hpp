@@ -2,12 +2,11 @@
 
 #include <cmath>
 #include <cstdint>
+#include <gene_clocks/neat/agent.hpp>
+#include <gene_clocks/neat/gene_clock_source.hpp>
 #include <memory>
 #include <utility>
 #include <vector>
-
-#include "gene_clocks/neat/agent.hpp"
-#include "gene_clocks/neat/gene_clock_source.hpp"
 
 // Robots and genomes for the tests of this folder.
 

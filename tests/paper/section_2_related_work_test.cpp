@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <gene_clocks/neat/timestamp_source.hpp>
 
-#include "gene_clocks/neat/timestamp_source.hpp"
-#include "paper_agents.hpp"
+#include "tests/paper/paper_agents.hpp"
 
 // Section 2: what NEAT and odNEAT do.
 

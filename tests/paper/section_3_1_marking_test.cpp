@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <gene_clocks/gene_clock.hpp>
 #include <type_traits>
 #include <vector>
 
-#include "gene_clocks/gene_clock.hpp"
-#include "paper_agents.hpp"
+#include "tests/paper/paper_agents.hpp"
 
 // Section 3, odNEAT with logical markers, and 3.1, Decentralized Marking of Innovations.
 

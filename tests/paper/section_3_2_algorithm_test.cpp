@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "paper_agents.hpp"
+#include "tests/paper/paper_agents.hpp"
 
 // Section 3.2, Evolutionary Algorithm: Algorithm 1 and the text around it.
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "paper_agents.hpp"
+#include "tests/paper/paper_agents.hpp"
 
 // Section 3.2: mutation, and the genotypic distance of Equation 1.
 

@@ -2,13 +2,13 @@
 
 #include <array>
 #include <cmath>
+#include <gene_clocks/sim/simulation.hpp>
 #include <vector>
 
-#include "arena_file.hpp"
-#include "gene_clocks/sim/simulation.hpp"
-#include "profile.hpp"
-#include "study.hpp"
-#include "task.hpp"
+#include "sim/core/src/task.hpp"
+#include "sim/experiment/study/study.hpp"
+#include "sim/settings/arena_file.hpp"
+#include "sim/settings/profile.hpp"
 
 // Section 4, Experiments. Where the published runs differed from the text, the profile "text" has
 // the text; docs/deviations.md lists the differences.

@@ -1,10 +1,9 @@
-#include "gene_clocks/admission_gate.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <forward_list>
+#include <gene_clocks/admission_gate.hpp>
 #include <limits>
 #include <vector>
 

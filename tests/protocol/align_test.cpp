@@ -1,10 +1,9 @@
-#include "gene_clocks/align.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <forward_list>
+#include <gene_clocks/align.hpp>
 #include <list>
 #include <map>
 #include <ostream>
@@ -13,8 +12,8 @@
 #include <tuple>
 #include <vector>
 
-#include "support/marks.hpp"
-#include "support/property.hpp"
+#include "tests/support/marks.hpp"
+#include "tests/support/property.hpp"
 
 namespace gene_clocks {
 

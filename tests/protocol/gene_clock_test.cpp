@@ -1,17 +1,16 @@
-#include "gene_clocks/gene_clock.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <gene_clocks/gene_clock.hpp>
 #include <limits>
 #include <ostream>
 #include <tuple>
 #include <vector>
 
-#include "support/marks.hpp"
-#include "support/property.hpp"
+#include "tests/support/marks.hpp"
+#include "tests/support/property.hpp"
 
 namespace gene_clocks {
 namespace {

@@ -1,5 +1,5 @@
 // What bench/hostile_peers.cpp measures, in short: how far strangers get honest clocks to advance.
-#include "support/hostile_fleet.hpp"
+#include "tests/support/hostile_fleet.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,14 @@
-#include "gene_clocks/innovation_number.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <gene_clocks/innovation_number.hpp>
 #include <random>
 #include <type_traits>
 #include <vector>
 
-#include "support/marks.hpp"
-#include "support/property.hpp"
+#include "tests/support/marks.hpp"
+#include "tests/support/property.hpp"
 
 namespace gene_clocks {
 namespace {

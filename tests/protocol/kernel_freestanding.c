@@ -1,5 +1,5 @@
 /* Firmware's view: the kernel needs no library. */
-#include "gene_clocks/kernel.h"
+#include <gene_clocks/kernel.h>
 
 bool kernel_freestanding(struct gene_clocks_state* state, const struct gene_clocks_limits* limits,
                          gene_clocks_counter* first);

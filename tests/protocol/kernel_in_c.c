@@ -1,8 +1,7 @@
-#include "kernel_in_c.h"
+#include "tests/protocol/kernel_in_c.h"
 
+#include <gene_clocks/kernel.h>
 #include <stdlib.h>
-
-#include "gene_clocks/kernel.h"
 
 static struct gene_clocks_limits limits_of(const struct c_clock* clock) {
     struct gene_clocks_limits limits = {clock->maximum, clock->block, clock->window};

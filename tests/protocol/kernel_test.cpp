@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <gene_clocks/align.hpp>
+#include <gene_clocks/gene_clock.hpp>
 #include <optional>
 #include <vector>
 
-#include "gene_clocks/align.hpp"
-#include "gene_clocks/gene_clock.hpp"
-#include "kernel_in_c.h"
-#include "support/marks.hpp"
-#include "support/property.hpp"
+#include "tests/protocol/kernel_in_c.h"
+#include "tests/support/marks.hpp"
+#include "tests/support/property.hpp"
 
 namespace gene_clocks {
 namespace {

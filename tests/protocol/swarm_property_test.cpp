@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <gene_clocks/align.hpp>
 #include <iostream>
 #include <limits>
 #include <set>
@@ -14,10 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "gene_clocks/align.hpp"
-#include "support/faulty_swarm.hpp"
-#include "support/history.hpp"
-#include "support/property.hpp"
+#include "tests/support/faulty_swarm.hpp"
+#include "tests/support/history.hpp"
+#include "tests/support/property.hpp"
 
 namespace gene_clocks {
 namespace {

@@ -1,6 +1,6 @@
-#include "wire_in_c.h"
+#include "tests/protocol/wire_in_c.h"
 
-#include "gene_clocks/genome_payload.h"
+#include <gene_clocks/genome_payload.h>
 
 /* As firmware would have it: all memory is there from the start. */
 enum { neurons_max = 1024, connections_max = 1024, payload_max = 65536 };

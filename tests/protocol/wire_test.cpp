@@ -1,22 +1,21 @@
 // The wire format against its test vectors, in C++ and in C; and every way to damage a frame.
-#include "gene_clocks/wire.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <bit>
+#include <gene_clocks/wire.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "support/allocations.hpp"
-#include "support/marks.hpp"
-#include "support/property.hpp"
-#include "support/wire_messages.hpp"
-#include "support/wire_vectors.hpp"
-#include "wire_in_c.h"
+#include "tests/protocol/wire_in_c.h"
+#include "tests/support/allocations.hpp"
+#include "tests/support/marks.hpp"
+#include "tests/support/property.hpp"
+#include "tests/support/wire_messages.hpp"
+#include "tests/support/wire_vectors.hpp"
 
 namespace gene_clocks {
 namespace {

@@ -1,6 +1,4 @@
 // The store on a real file system: what is refused and with which error.
-#include "gene_clocks/storage/file_store.hpp"
-
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -8,12 +6,13 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <gene_clocks/gene_clock.hpp>
+#include <gene_clocks/storage/file_store.hpp>
 #include <iterator>
 #include <string>
 #include <vector>
 
-#include "gene_clocks/gene_clock.hpp"
-#include "temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace {
 

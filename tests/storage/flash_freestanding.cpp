@@ -1,6 +1,6 @@
 // Firmware's view: no exceptions, no run-time types, no heap, no library behind it.
-#include "gene_clocks/flash_store.hpp"
-#include "gene_clocks/gene_clock.hpp"
+#include <gene_clocks/flash_store.hpp>
+#include <gene_clocks/gene_clock.hpp>
 
 namespace {
 

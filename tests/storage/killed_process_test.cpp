@@ -13,15 +13,15 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
+#include <gene_clocks/gene_clock.hpp>
+#include <gene_clocks/storage/file_store.hpp>
 #include <optional>
 #include <random>
 #include <string>
 #include <thread>
 #include <utility>
 
-#include "gene_clocks/gene_clock.hpp"
-#include "gene_clocks/storage/file_store.hpp"
-#include "temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace gene_clocks {
 namespace {

@@ -6,14 +6,13 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <gene_clocks/stored_counter.hpp>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "gene_clocks/stored_counter.hpp"
 
 namespace gene_clocks::test {
 

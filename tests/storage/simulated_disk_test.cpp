@@ -1,16 +1,15 @@
 // Every loss of power, at every operation, with every part of what was not synchronised lost, torn
 // or out of order; every kill; every operation that fails; either copy rotten; any number of times,
 // one after the other. Counters go from 1 to `largest`.
-#include "simulated_disk.hpp"
+#include "tests/storage/simulated_disk.hpp"
 
 #include <gtest/gtest.h>
 
 #include <deque>
+#include <gene_clocks/storage/file_store.hpp>
 #include <iostream>
 #include <set>
 #include <string>
-
-#include "gene_clocks/storage/file_store.hpp"
 
 namespace gene_clocks::test {
 namespace {

@@ -6,13 +6,12 @@
 #include <array>
 #include <compare>
 #include <deque>
+#include <gene_clocks/flash_store.hpp>
 #include <iostream>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
-
-#include "gene_clocks/flash_store.hpp"
 
 namespace gene_clocks::test {
 namespace {

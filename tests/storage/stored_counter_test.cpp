@@ -1,9 +1,8 @@
-#include "gene_clocks/stored_counter.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstring>
+#include <gene_clocks/stored_counter.hpp>
 #include <vector>
 
 namespace gene_clocks {

@@ -4,14 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <gene_clocks/gene_clock.hpp>
 #include <optional>
 #include <random>
 #include <utility>
 #include <vector>
 
-#include "gene_clocks/gene_clock.hpp"
-#include "support/communication_graph.hpp"
-#include "support/history.hpp"
+#include "tests/support/communication_graph.hpp"
+#include "tests/support/history.hpp"
 
 namespace gene_clocks::test {
 

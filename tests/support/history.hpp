@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-#include "support/marks.hpp"
+#include "tests/support/marks.hpp"
 
 /// What an observer who sees the whole swarm writes down, and what must hold of it. Nothing here
 /// looks at a clock.

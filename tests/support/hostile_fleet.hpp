@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <gene_clocks/admission_gate.hpp>
+#include <gene_clocks/gene_clock.hpp>
 #include <limits>
 #include <random>
 #include <ranges>
 #include <vector>
-
-#include "gene_clocks/admission_gate.hpp"
-#include "gene_clocks/gene_clock.hpp"
 
 namespace gene_clocks::test {
 

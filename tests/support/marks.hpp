@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <concepts>
 #include <cstdint>
+#include <gene_clocks/gene_clock.hpp>
+#include <gene_clocks/innovation_number.hpp>
 #include <ostream>
 #include <set>
 #include <utility>
 #include <vector>
-
-#include "gene_clocks/gene_clock.hpp"
-#include "gene_clocks/innovation_number.hpp"
 
 namespace gene_clocks {
 

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <gene_clocks/neat/gene_clock_source.hpp>
+#include <gene_clocks/neat/genome.hpp>
+#include <gene_clocks/neat/mutation.hpp>
 #include <memory>
 #include <vector>
-
-#include "gene_clocks/neat/gene_clock_source.hpp"
-#include "gene_clocks/neat/genome.hpp"
-#include "gene_clocks/neat/mutation.hpp"
 
 namespace gene_clocks::test {
 

@@ -3,11 +3,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <gene_clocks/wire.hpp>
 #include <ostream>
 #include <span>
 #include <vector>
-
-#include "gene_clocks/wire.hpp"
 
 // Whole messages of the wire format as plain values, by the C header's functions: what tests and
 // fuzzers decode to and encode from.

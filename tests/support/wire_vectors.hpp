@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "support/wire_messages.hpp"
+#include "tests/support/wire_messages.hpp"
 
 // The test vectors of the wire format, off their file.
 

@@ -1,8 +1,7 @@
-#include "gene_clocks/authentication/sealed_frames.hpp"
-
 #include <sodium.h>
 
 #include <algorithm>
+#include <gene_clocks/authentication/sealed_frames.hpp>
 #include <utility>
 
 namespace gene_clocks::authentication {

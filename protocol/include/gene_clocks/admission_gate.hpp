@@ -5,11 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <gene_clocks/gene_clock.hpp>
+#include <gene_clocks/marks.hpp>
 #include <limits>
 #include <optional>
-
-#include "gene_clocks/gene_clock.hpp"
-#include "gene_clocks/marks.hpp"
 
 namespace gene_clocks {
 

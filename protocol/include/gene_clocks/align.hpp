@@ -1,12 +1,12 @@
 #pragma once
 
+#include <gene_clocks/kernel.h>
+
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-
-#include "gene_clocks/kernel.h"
-#include "gene_clocks/marks.hpp"
+#include <gene_clocks/marks.hpp>
 
 namespace gene_clocks {
 

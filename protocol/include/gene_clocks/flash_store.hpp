@@ -5,10 +5,9 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <gene_clocks/stored_counter.hpp>
 #include <span>
 #include <utility>
-
-#include "gene_clocks/stored_counter.hpp"
 
 namespace gene_clocks {
 

@@ -1,16 +1,16 @@
 #pragma once
 
+#include <gene_clocks/kernel.h>
+
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <gene_clocks/innovation_number.hpp>
+#include <gene_clocks/marks.hpp>
 #include <limits>
 #include <optional>
-
-#include "gene_clocks/innovation_number.hpp"
-#include "gene_clocks/kernel.h"
-#include "gene_clocks/marks.hpp"
 
 namespace gene_clocks {
 

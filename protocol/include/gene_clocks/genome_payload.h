@@ -12,8 +12,8 @@
 #ifndef GENE_CLOCKS_GENOME_PAYLOAD_H
 #define GENE_CLOCKS_GENOME_PAYLOAD_H
 
-#include "gene_clocks/kernel.h"
-#include "gene_clocks/wire.h"
+#include <gene_clocks/kernel.h>
+#include <gene_clocks/wire.h>
 
 /* clang-format off */
 #ifdef __cplusplus

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <gene_clocks/kernel.h>
+
 #include <compare>
 #include <concepts>
 #include <cstdint>
-
-#include "gene_clocks/kernel.h"
 
 namespace gene_clocks {
 

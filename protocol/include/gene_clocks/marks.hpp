@@ -3,11 +3,10 @@
 #include <concepts>
 #include <cstddef>
 #include <functional>
+#include <gene_clocks/innovation_number.hpp>
 #include <iterator>
 #include <ranges>
 #include <type_traits>
-
-#include "gene_clocks/innovation_number.hpp"
 
 namespace gene_clocks {
 

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <gene_clocks/checksum.h>
+
 #include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <gene_clocks/innovation_number.hpp>
 #include <span>
-
-#include "gene_clocks/checksum.h"
-#include "gene_clocks/innovation_number.hpp"
 
 namespace gene_clocks {
 

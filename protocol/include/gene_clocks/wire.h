@@ -8,10 +8,9 @@
 #ifndef GENE_CLOCKS_WIRE_H
 #define GENE_CLOCKS_WIRE_H
 
+#include <gene_clocks/checksum.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include "gene_clocks/checksum.h"
 
 /* clang-format off */
 #ifdef __cplusplus

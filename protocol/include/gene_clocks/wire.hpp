@@ -1,17 +1,17 @@
 #pragma once
 
+#include <gene_clocks/genome_payload.h>
+#include <gene_clocks/wire.h>
+
 #include <cstddef>
 #include <cstdint>
+#include <gene_clocks/innovation_number.hpp>
 #include <iterator>
 #include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
 #include <variant>
-
-#include "gene_clocks/genome_payload.h"
-#include "gene_clocks/innovation_number.hpp"
-#include "gene_clocks/wire.h"
 
 namespace gene_clocks {
 

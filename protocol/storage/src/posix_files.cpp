@@ -1,11 +1,10 @@
-#include "gene_clocks/storage/posix_files.hpp"
-
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <gene_clocks/storage/posix_files.hpp>
 
 namespace gene_clocks::storage {
 namespace {

@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "settings_io.hpp"
-#include "store.hpp"
-#include "study.hpp"
+#include "sim/experiment/store/store.hpp"
+#include "sim/experiment/study/study.hpp"
+#include "sim/settings/program_version.hpp"
+#include "sim/settings/settings_io.hpp"
 
 namespace gene_clocks::app {
 

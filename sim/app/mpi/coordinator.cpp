@@ -1,4 +1,4 @@
-#include "coordinator.hpp"
+#include "sim/app/mpi/coordinator.hpp"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "assigned_run.hpp"
-#include "commands.hpp"
-#include "input_error.hpp"
-#include "run_message.hpp"
+#include "sim/app/commands.hpp"
+#include "sim/app/mpi/assigned_run.hpp"
+#include "sim/experiment/store/run_message.hpp"
+#include "sim/settings/input_error.hpp"
 
 namespace gene_clocks::app {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "messenger.hpp"
-#include "runner.hpp"
-#include "study.hpp"
+#include "sim/app/mpi/messenger.hpp"
+#include "sim/experiment/study/runner.hpp"
+#include "sim/experiment/study/study.hpp"
 
 namespace gene_clocks::app {
 

@@ -4,13 +4,13 @@
 
 #include <utility>
 
-#include "conduct.hpp"
-#include "coordinator.hpp"
-#include "input_error.hpp"
-#include "messenger.hpp"
-#include "program.hpp"
-#include "stop_signal.hpp"
-#include "worker.hpp"
+#include "sim/app/conduct.hpp"
+#include "sim/app/mpi/coordinator.hpp"
+#include "sim/app/mpi/messenger.hpp"
+#include "sim/app/mpi/worker.hpp"
+#include "sim/app/program.hpp"
+#include "sim/app/stop_signal.hpp"
+#include "sim/settings/input_error.hpp"
 
 namespace {
 

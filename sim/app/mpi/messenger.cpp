@@ -1,4 +1,4 @@
-#include "messenger.hpp"
+#include "sim/app/mpi/messenger.hpp"
 
 #include <mpi.h>
 

@@ -1,4 +1,4 @@
-#include "worker.hpp"
+#include "sim/app/mpi/worker.hpp"
 
 #include <chrono>
 #include <exception>
@@ -8,12 +8,12 @@
 #include <string>
 #include <utility>
 
-#include "assigned_run.hpp"
-#include "commands.hpp"
-#include "input_error.hpp"
-#include "run_message.hpp"
-#include "run_plan.hpp"
-#include "runner.hpp"
+#include "sim/app/commands.hpp"
+#include "sim/app/mpi/assigned_run.hpp"
+#include "sim/experiment/store/run_message.hpp"
+#include "sim/experiment/study/run_plan.hpp"
+#include "sim/experiment/study/runner.hpp"
+#include "sim/settings/input_error.hpp"
 
 namespace gene_clocks::app {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <atomic>
 
-#include "messenger.hpp"
-#include "study.hpp"
+#include "sim/app/mpi/messenger.hpp"
+#include "sim/experiment/study/study.hpp"
 
 namespace gene_clocks::app {
 

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "program.hpp"
-#include "temporary_folder.hpp"
+#include "tests/sim/app/program.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace gene_clocks {
 namespace {

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "program.hpp"
-#include "temporary_folder.hpp"
+#include "tests/sim/app/program.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace gene_clocks {
 namespace {

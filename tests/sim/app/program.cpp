@@ -1,4 +1,4 @@
-#include "program.hpp"
+#include "tests/sim/app/program.hpp"
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace gene_clocks::test {
 namespace {

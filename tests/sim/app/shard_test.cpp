@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <string>
 
-#include "program.hpp"
-#include "store_contents.hpp"
-#include "temporary_folder.hpp"
+#include "tests/sim/app/program.hpp"
+#include "tests/sim/app/store_contents.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace gene_clocks {
 namespace {

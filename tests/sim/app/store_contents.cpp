@@ -1,9 +1,9 @@
-#include "store_contents.hpp"
+#include "tests/sim/app/store_contents.hpp"
 
 #include <sstream>
 #include <vector>
 
-#include "program.hpp"
+#include "tests/sim/app/program.hpp"
 
 namespace gene_clocks::test {
 namespace {

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "program.hpp"
-#include "temporary_folder.hpp"
+#include "tests/sim/app/program.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace gene_clocks {
 namespace {

@@ -1,10 +1,10 @@
-#include "arena_map.hpp"
+#include "sim/core/src/arena_map.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "naive_geometry.hpp"
+#include "tests/sim/core/naive_geometry.hpp"
 
 namespace gene_clocks::sim {
 namespace {

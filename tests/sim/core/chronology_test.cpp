@@ -1,4 +1,4 @@
-#include "chronology/chronology.hpp"
+#include "sim/core/src/chronology/chronology.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,15 +6,15 @@
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/breadth_first_search.hpp>
 #include <boost/graph/visitors.hpp>
+#include <gene_clocks/neat/gene_clock_source.hpp>
+#include <gene_clocks/neat/message_codec.hpp>
+#include <gene_clocks/sim/run_observer.hpp>
+#include <gene_clocks/sim/simulation.hpp>
 #include <map>
 #include <optional>
 #include <vector>
 
-#include "gene_clocks/neat/gene_clock_source.hpp"
-#include "gene_clocks/neat/message_codec.hpp"
-#include "gene_clocks/sim/run_observer.hpp"
-#include "gene_clocks/sim/simulation.hpp"
-#include "naive_geometry.hpp"
+#include "tests/sim/core/naive_geometry.hpp"
 
 namespace gene_clocks::sim {
 namespace {

@@ -1,12 +1,11 @@
-#include "item_field.hpp"
+#include "sim/core/src/item_field.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <gene_clocks/neat/random.hpp>
 #include <vector>
-
-#include "gene_clocks/neat/random.hpp"
 
 namespace gene_clocks::sim {
 namespace {

@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <gene_clocks/sim/simulation.hpp>
 #include <stdexcept>
-
-#include "gene_clocks/sim/simulation.hpp"
 
 namespace gene_clocks::sim {
 namespace {

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-
-#include "gene_clocks/neat/random.hpp"
-#include "gene_clocks/sim/arena.hpp"
+#include <gene_clocks/neat/random.hpp>
+#include <gene_clocks/sim/arena.hpp>
 
 /// The simulator's geometry, written down again in the plainest way: what a point, a diamond or a
 /// disc has to do with the shapes of an arena, in double precision and without any table.

@@ -1,11 +1,10 @@
-#include "neighbour_index.hpp"
+#include "sim/core/src/neighbour_index.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "gene_clocks/neat/random.hpp"
+#include <gene_clocks/neat/random.hpp>
 
 namespace gene_clocks::sim {
 namespace {

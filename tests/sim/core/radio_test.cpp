@@ -1,4 +1,4 @@
-#include "radio.hpp"
+#include "sim/core/src/radio.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,13 @@
-#include "gene_clocks/sim/simulation.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <gene_clocks/sim/run_observer.hpp>
+#include <gene_clocks/sim/simulation.hpp>
 #include <map>
 #include <set>
 #include <stdexcept>
 
-#include "gene_clocks/sim/run_observer.hpp"
-#include "naive_geometry.hpp"
+#include "tests/sim/core/naive_geometry.hpp"
 
 namespace gene_clocks::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "source_factory.hpp"
+#include "sim/core/src/source_factory.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "volatile_source.hpp"
+#include "sim/core/src/volatile_source.hpp"
 
 namespace gene_clocks::sim {
 namespace {

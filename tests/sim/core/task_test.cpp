@@ -1,4 +1,4 @@
-#include "task.hpp"
+#include "sim/core/src/task.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "world.hpp"
+#include "sim/core/src/world.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <stdexcept>
 
-#include "naive_geometry.hpp"
+#include "tests/sim/core/naive_geometry.hpp"
 
 namespace gene_clocks::sim {
 namespace {

@@ -6,12 +6,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <gene_clocks/sim/simulation.hpp>
 #include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
-
-#include "gene_clocks/sim/simulation.hpp"
 
 namespace {
 

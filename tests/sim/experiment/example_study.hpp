@@ -4,9 +4,9 @@
 #include <string>
 #include <type_traits>
 
-#include "document.hpp"
-#include "store.hpp"
-#include "study.hpp"
+#include "sim/experiment/store/store.hpp"
+#include "sim/experiment/study/study.hpp"
+#include "sim/settings/document.hpp"
 
 namespace gene_clocks::test {
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "input_error.hpp"
+#include "sim/settings/input_error.hpp"
 
 namespace gene_clocks::test {
 

@@ -1,10 +1,10 @@
-#include "gene_history.hpp"
+#include "sim/replay/gene_history.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "sample_run.hpp"
+#include "tests/sim/replay/sample_run.hpp"
 
 namespace gene_clocks::replay {
 namespace {

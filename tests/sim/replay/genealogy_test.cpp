@@ -1,10 +1,10 @@
-#include "genealogy.hpp"
+#include "sim/replay/genealogy.hpp"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "sample_run.hpp"
+#include "tests/sim/replay/sample_run.hpp"
 
 namespace gene_clocks::replay {
 namespace {

@@ -1,4 +1,4 @@
-#include "number_stream.hpp"
+#include "sim/replay/number_stream.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <string_view>
 
-#include "decoded.hpp"
+#include "tests/sim/replay/decoded.hpp"
 
 namespace gene_clocks::replay {
 namespace {

@@ -1,12 +1,12 @@
-#include "replay_page.hpp"
+#include "sim/replay/replay_page.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "genealogy.hpp"
-#include "sample_run.hpp"
+#include "sim/replay/genealogy.hpp"
+#include "tests/sim/replay/sample_run.hpp"
 
 namespace gene_clocks::replay {
 namespace {

@@ -1,12 +1,12 @@
-#include "replay_recorder.hpp"
+#include "sim/replay/replay_recorder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "decoded.hpp"
-#include "sample_run.hpp"
+#include "tests/sim/replay/decoded.hpp"
+#include "tests/sim/replay/sample_run.hpp"
 
 namespace gene_clocks::replay {
 namespace {

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <gene_clocks/sim/simulation.hpp>
 #include <map>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "gene_clocks/sim/simulation.hpp"
-#include "replay_recorder.hpp"
+#include "sim/replay/replay_recorder.hpp"
 
 namespace gene_clocks::replay {
 

@@ -1,13 +1,13 @@
-#include "comparison.hpp"
+#include "sim/report/comparison.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "input_error.hpp"
-#include "sample_input.hpp"
-#include "statistics/quantiles.hpp"
+#include "sim/settings/input_error.hpp"
+#include "sim/statistics/quantiles.hpp"
+#include "tests/sim/report/sample_input.hpp"
 
 namespace gene_clocks::report {
 namespace {

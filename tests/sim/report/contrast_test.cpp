@@ -1,13 +1,13 @@
-#include "contrast.hpp"
+#include "sim/report/contrast.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "input_error.hpp"
-#include "sample_input.hpp"
-#include "statistics/mann_whitney.hpp"
+#include "sim/settings/input_error.hpp"
+#include "sim/statistics/mann_whitney.hpp"
+#include "tests/sim/report/sample_input.hpp"
 
 namespace gene_clocks::report {
 namespace {

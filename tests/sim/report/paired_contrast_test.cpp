@@ -1,4 +1,4 @@
-#include "paired_contrast.hpp"
+#include "sim/report/paired_contrast.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "contrast.hpp"
-#include "input_error.hpp"
-#include "sample_input.hpp"
+#include "sim/report/contrast.hpp"
+#include "sim/settings/input_error.hpp"
+#include "tests/sim/report/sample_input.hpp"
 
 namespace gene_clocks::report {
 namespace {

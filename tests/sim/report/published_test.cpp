@@ -1,11 +1,11 @@
-#include "published.hpp"
+#include "sim/report/published.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "embedded_files.hpp"
-#include "input_error.hpp"
+#include "sim/settings/embedded_files.hpp"
+#include "sim/settings/input_error.hpp"
 
 namespace gene_clocks::report {
 namespace {

@@ -1,12 +1,12 @@
-#include "report_data.hpp"
+#include "sim/report/report_data.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "sample_input.hpp"
-#include "statistics/quantiles.hpp"
+#include "sim/statistics/quantiles.hpp"
+#include "tests/sim/report/sample_input.hpp"
 
 namespace gene_clocks::report {
 namespace {

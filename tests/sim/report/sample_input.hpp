@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "choice_names.hpp"
-#include "profile.hpp"
-#include "report.hpp"
-#include "settings_io.hpp"
+#include "sim/report/report.hpp"
+#include "sim/settings/choice_names.hpp"
+#include "sim/settings/profile.hpp"
+#include "sim/settings/settings_io.hpp"
 
 namespace gene_clocks::report {
 

@@ -1,10 +1,10 @@
-#include "study_design.hpp"
+#include "sim/report/study_design.hpp"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "sample_input.hpp"
+#include "tests/sim/report/sample_input.hpp"
 
 namespace gene_clocks::report {
 namespace {

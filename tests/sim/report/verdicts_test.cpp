@@ -1,10 +1,10 @@
-#include "verdicts.hpp"
+#include "sim/report/verdicts.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "sample_input.hpp"
+#include "tests/sim/report/sample_input.hpp"
 
 namespace gene_clocks::report {
 namespace {

@@ -8,9 +8,9 @@
 #include <set>
 #include <string>
 
-#include "input_error.hpp"
-#include "report.hpp"
-#include "sample_input.hpp"
+#include "sim/report/report.hpp"
+#include "sim/settings/input_error.hpp"
+#include "tests/sim/report/sample_input.hpp"
 
 namespace gene_clocks::report {
 namespace {

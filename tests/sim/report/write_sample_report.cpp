@@ -1,8 +1,8 @@
 // Writes the report of made-up runs, for page_test.py to look at: write_sample_report FOLDER KIND
 #include <iostream>
 
-#include "report.hpp"
-#include "sample_input.hpp"
+#include "sim/report/report.hpp"
+#include "tests/sim/report/sample_input.hpp"
 
 int main(int count, char** arguments) {
     if (count != 3) {

@@ -1,4 +1,4 @@
-#include "statistics/bootstrap.hpp"
+#include "sim/statistics/bootstrap.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "statistics/mann_whitney.hpp"
-#include "statistics/quantiles.hpp"
+#include "sim/statistics/mann_whitney.hpp"
+#include "sim/statistics/quantiles.hpp"
 
 namespace gene_clocks::statistics {
 namespace {

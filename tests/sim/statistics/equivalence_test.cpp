@@ -1,4 +1,4 @@
-#include "statistics/equivalence.hpp"
+#include "sim/statistics/equivalence.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "statistics/mann_whitney.hpp"
+#include "sim/statistics/mann_whitney.hpp"
 
 namespace gene_clocks::statistics {
 namespace {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "statistics/mann_whitney.hpp"
+#include "sim/statistics/mann_whitney.hpp"
 
 namespace gene_clocks::statistics {
 namespace {

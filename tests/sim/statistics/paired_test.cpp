@@ -1,4 +1,4 @@
-#include "statistics/paired.hpp"
+#include "sim/statistics/paired.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "statistics/quantiles.hpp"
+#include "sim/statistics/quantiles.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // The test vectors come from R: make_vectors.R beside this file writes them.
-#include "r_vectors.hpp"
+#include "tests/sim/statistics/r_vectors.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "statistics/equivalence.hpp"
-#include "statistics/mann_whitney.hpp"
-#include "statistics/paired.hpp"
-#include "statistics/quantiles.hpp"
+#include "sim/statistics/equivalence.hpp"
+#include "sim/statistics/mann_whitney.hpp"
+#include "sim/statistics/paired.hpp"
+#include "sim/statistics/quantiles.hpp"
 
 namespace gene_clocks::statistics {
 namespace {

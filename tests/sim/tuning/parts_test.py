@@ -15,7 +15,7 @@ from run_record import open_record
 
 class RangesTest(FolderTest):
     def test_the_nine_parameters_of_table_1_are_tuned(self):
-        sets = tomllib.loads((SOURCE_FOLDER / "sim/profiles/parameters.toml").read_text(encoding="utf-8"))
+        sets = tomllib.loads((SOURCE_FOLDER / "sim/settings/profiles/parameters.toml").read_text(encoding="utf-8"))
         for name, values in sets.items():
             del values["description"]
             self.assertEqual({f"odneat.{key}" for key in values}, irace.ranges().keys(), name)

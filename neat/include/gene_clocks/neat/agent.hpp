@@ -1,18 +1,17 @@
 #pragma once
 
 #include <cstdint>
+#include <gene_clocks/neat/controller.hpp>
+#include <gene_clocks/neat/genome.hpp>
+#include <gene_clocks/neat/innovation_source.hpp>
+#include <gene_clocks/neat/mutation.hpp>
+#include <gene_clocks/neat/population.hpp>
+#include <gene_clocks/neat/random.hpp>
+#include <gene_clocks/neat/settings.hpp>
+#include <gene_clocks/neat/tabu_list.hpp>
 #include <memory>
 #include <optional>
 #include <span>
-
-#include "gene_clocks/neat/controller.hpp"
-#include "gene_clocks/neat/genome.hpp"
-#include "gene_clocks/neat/innovation_source.hpp"
-#include "gene_clocks/neat/mutation.hpp"
-#include "gene_clocks/neat/population.hpp"
-#include "gene_clocks/neat/random.hpp"
-#include "gene_clocks/neat/settings.hpp"
-#include "gene_clocks/neat/tabu_list.hpp"
 
 namespace gene_clocks::neat {
 

@@ -1,8 +1,7 @@
 #pragma once
 
+#include <gene_clocks/neat/innovation_source.hpp>
 #include <limits>
-
-#include "gene_clocks/neat/innovation_source.hpp"
 
 namespace gene_clocks::neat {
 

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <gene_clocks/neat/genome.hpp>
 #include <span>
-
-#include "gene_clocks/neat/genome.hpp"
 
 namespace gene_clocks::neat {
 

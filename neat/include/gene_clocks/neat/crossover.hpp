@@ -1,8 +1,8 @@
 #pragma once
 
-#include "gene_clocks/neat/genome.hpp"
-#include "gene_clocks/neat/random.hpp"
-#include "gene_clocks/neat/settings.hpp"
+#include <gene_clocks/neat/genome.hpp>
+#include <gene_clocks/neat/random.hpp>
+#include <gene_clocks/neat/settings.hpp>
 
 namespace gene_clocks::neat {
 

@@ -1,9 +1,8 @@
 #pragma once
 
+#include <gene_clocks/neat/genome.hpp>
+#include <gene_clocks/neat/settings.hpp>
 #include <limits>
-
-#include "gene_clocks/neat/genome.hpp"
-#include "gene_clocks/neat/settings.hpp"
 
 namespace gene_clocks::neat {
 

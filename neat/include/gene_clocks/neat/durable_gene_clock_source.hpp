@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <gene_clocks/admission_gate.hpp>
+#include <gene_clocks/neat/innovation_source.hpp>
+#include <gene_clocks/stored_counter.hpp>
 #include <memory>
 #include <ranges>
 #include <utility>
-
-#include "gene_clocks/admission_gate.hpp"
-#include "gene_clocks/neat/innovation_source.hpp"
-#include "gene_clocks/stored_counter.hpp"
 
 namespace gene_clocks::neat {
 

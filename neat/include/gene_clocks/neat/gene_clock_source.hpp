@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gene_clocks/gene_clock.hpp"
-#include "gene_clocks/neat/innovation_source.hpp"
+#include <gene_clocks/gene_clock.hpp>
+#include <gene_clocks/neat/innovation_source.hpp>
 
 namespace gene_clocks::neat {
 

@@ -2,13 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <gene_clocks/innovation_number.hpp>
+#include <gene_clocks/neat/random.hpp>
 #include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
-
-#include "gene_clocks/innovation_number.hpp"
-#include "gene_clocks/neat/random.hpp"
 
 namespace gene_clocks::neat {
 

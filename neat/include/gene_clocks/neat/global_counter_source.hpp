@@ -1,10 +1,9 @@
 #pragma once
 
+#include <gene_clocks/neat/innovation_source.hpp>
 #include <map>
 #include <memory>
 #include <tuple>
-
-#include "gene_clocks/neat/innovation_source.hpp"
 
 namespace gene_clocks::neat {
 

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <algorithm>
-
-#include "gene_clocks/neat/innovation_source.hpp"
-#include "gene_clocks/neat/local_time.hpp"
+#include <gene_clocks/neat/innovation_source.hpp>
+#include <gene_clocks/neat/local_time.hpp>
 
 namespace gene_clocks::neat {
 

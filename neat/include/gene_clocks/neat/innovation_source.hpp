@@ -1,11 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <gene_clocks/gene_clock.hpp>
+#include <gene_clocks/innovation_number.hpp>
+#include <gene_clocks/neat/genome.hpp>
 #include <optional>
-
-#include "gene_clocks/gene_clock.hpp"
-#include "gene_clocks/innovation_number.hpp"
-#include "gene_clocks/neat/genome.hpp"
 
 namespace gene_clocks::neat {
 

@@ -1,8 +1,7 @@
 #pragma once
 
 #include <cstdint>
-
-#include "gene_clocks/neat/random.hpp"
+#include <gene_clocks/neat/random.hpp>
 
 namespace gene_clocks::neat {
 

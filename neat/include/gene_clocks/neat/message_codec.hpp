@@ -1,16 +1,16 @@
 #pragma once
 
+#include <gene_clocks/genome_payload.h>
+
 #include <cstdint>
+#include <gene_clocks/neat/agent.hpp>
+#include <gene_clocks/neat/genome.hpp>
+#include <gene_clocks/neat/settings.hpp>
+#include <gene_clocks/wire.hpp>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
-
-#include "gene_clocks/genome_payload.h"
-#include "gene_clocks/neat/agent.hpp"
-#include "gene_clocks/neat/genome.hpp"
-#include "gene_clocks/neat/settings.hpp"
-#include "gene_clocks/wire.hpp"
 
 namespace gene_clocks::neat {
 

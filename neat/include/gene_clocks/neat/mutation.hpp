@@ -1,9 +1,9 @@
 #pragma once
 
-#include "gene_clocks/neat/genome.hpp"
-#include "gene_clocks/neat/innovation_source.hpp"
-#include "gene_clocks/neat/random.hpp"
-#include "gene_clocks/neat/settings.hpp"
+#include <gene_clocks/neat/genome.hpp>
+#include <gene_clocks/neat/innovation_source.hpp>
+#include <gene_clocks/neat/random.hpp>
+#include <gene_clocks/neat/settings.hpp>
 
 namespace gene_clocks::neat {
 

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <gene_clocks/neat/crossover.hpp>
+#include <gene_clocks/neat/distance.hpp>
+#include <gene_clocks/neat/genome.hpp>
+#include <gene_clocks/neat/random.hpp>
 #include <memory>
 #include <optional>
 #include <vector>
-
-#include "gene_clocks/neat/crossover.hpp"
-#include "gene_clocks/neat/distance.hpp"
-#include "gene_clocks/neat/genome.hpp"
-#include "gene_clocks/neat/random.hpp"
 
 namespace gene_clocks::neat {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gene_clocks/neat/innovation_source.hpp"
-#include "gene_clocks/neat/random.hpp"
+#include <gene_clocks/neat/innovation_source.hpp>
+#include <gene_clocks/neat/random.hpp>
 
 namespace gene_clocks::neat {
 

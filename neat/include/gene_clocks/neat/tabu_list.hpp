@@ -2,11 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <gene_clocks/neat/distance.hpp>
+#include <gene_clocks/neat/genome.hpp>
 #include <memory>
 #include <vector>
-
-#include "gene_clocks/neat/distance.hpp"
-#include "gene_clocks/neat/genome.hpp"
 
 namespace gene_clocks::neat {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gene_clocks/neat/innovation_source.hpp"
-#include "gene_clocks/neat/local_time.hpp"
+#include <gene_clocks/neat/innovation_source.hpp>
+#include <gene_clocks/neat/local_time.hpp>
 
 namespace gene_clocks::neat {
 

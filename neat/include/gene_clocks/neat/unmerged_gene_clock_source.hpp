@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gene_clocks/neat/gene_clock_source.hpp"
+#include <gene_clocks/neat/gene_clock_source.hpp>
 
 namespace gene_clocks::neat {
 

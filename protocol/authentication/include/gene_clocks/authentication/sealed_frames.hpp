@@ -3,14 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <gene_clocks/gene_clock.hpp>
+#include <gene_clocks/wire.hpp>
 #include <optional>
 #include <span>
 #include <unordered_map>
 #include <variant>
 #include <vector>
-
-#include "gene_clocks/gene_clock.hpp"
-#include "gene_clocks/wire.hpp"
 
 /// Frames that only holders of a key can make, each of which is taken once
 /// (docs/wire-format.md, "Authentication").

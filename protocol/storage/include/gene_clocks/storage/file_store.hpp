@@ -5,11 +5,10 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <gene_clocks/storage/posix_files.hpp>
+#include <gene_clocks/stored_counter.hpp>
 #include <span>
 #include <utility>
-
-#include "gene_clocks/storage/posix_files.hpp"
-#include "gene_clocks/stored_counter.hpp"
 
 namespace gene_clocks::storage {
 

@@ -1,0 +1,110 @@
+#include "sim/experiment/store/csv_export.hpp"
+
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "sim/experiment/study/summary.hpp"
+#include "sim/settings/choice_names.hpp"
+
+namespace gene_clocks::experiment {
+namespace {
+
+/// The best swarm fitness of each task's runs: what runs of a study are compared by.
+std::map<sim::Task, double> best_by_task(const Store& store, const StoredStudy& study) {
+    std::map<sim::Task, double> best;
+    for (const StoredArm& arm : study.arms) {
+        double& of_task = best[arm.settings.task];
+        for (const RunRecord& run : store.runs(study, arm)) {
+            of_task = std::max(of_task, best_swarm_fitness(run.result.samples));
+        }
+    }
+    return best;
+}
+
+/// The columns that say which run a line is about. Names have no commas or quotes, read_study sees
+/// to it; a profile may be any file.
+std::string identity(const StoredStudy& study, const StoredArm& arm, const RunRecord& run) {
+    return fmt::format("{},{},{},{},{},{},{}", study.name, arm.name, name_of(arm.settings.task),
+                       name_of(arm.settings.source), csv_field(arm.profile), arm.parameters,
+                       run.seed);
+}
+constexpr std::string_view identity_header = "study,arm,task,source,profile,parameters,seed";
+
+void write_run(const StoredStudy& study, const StoredArm& arm, const RunRecord& run,
+               const sim::MeasureSettings& measures, std::ostream& out) {
+    const RunSummary summary = summarise(run.result.samples, measures);
+    const sim::RunCounters& counters = run.result.counters;
+    const auto& at_10000 = summary.swarm_fitness_at_10000;
+    fmt::print(out, "{},{},{},{},{},{},{},{},{},{},", identity(study, arm, run),
+               summary.measures.f_c, summary.measures.f_b, summary.measures.t_f,
+               summary.measures.f_a, summary.final_swarm_fitness,
+               at_10000 ? fmt::format("{}", *at_10000) : "", summary.species,
+               summary.added_elements, summary.controller_size);
+    fmt::print(out, "{},{},{},{},{},{},{},{},{},", counters.births, counters.matings,
+               counters.mutations, counters.genes_created, counters.messages_sent,
+               counters.messages_received, counters.genomes_accepted, counters.collisions,
+               counters.reboots);
+    sim::for_each_measure(run.result.chronology,
+                          [&](const char*, const auto& value) { fmt::print(out, "{},", value); });
+    fmt::print(out, "{:016x},{},{},{},{},{},{}\n", run.result.trajectory_hash,
+               run.result.robot_steps, run.result.cpu_seconds, run.wall_seconds, run.finished_at,
+               run.program_version, run.settings_hash);
+}
+
+}  // namespace
+
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::ostringstream stream;
+    stream << std::quoted(text, '"', '"');
+    return stream.str();
+}
+
+void write_runs_csv(const Store& store, const std::vector<StoredStudy>& studies,
+                    std::ostream& out) {
+    fmt::print(out,
+               "{},f_c,f_b,t_f,f_a,final_swarm_fitness,swarm_fitness_at_10000,species,"
+               "added_elements,controller_size,births,matings,mutations,genes_created,"
+               "messages_sent,messages_received,genomes_accepted,collisions,reboots,",
+               identity_header);
+    sim::for_each_measure(sim::ChronologyMeasures{},
+                          [&](const char* name, const auto&) { fmt::print(out, "{},", name); });
+    fmt::print(out,
+               "trajectory_hash,robot_steps,cpu_seconds,wall_seconds,finished_at,"
+               "program_version,settings_hash\n");
+    for (const StoredStudy& study : studies) {
+        const auto best = best_by_task(store, study);
+        for (const StoredArm& arm : study.arms) {
+            sim::MeasureSettings measures = arm.settings.measures;
+            if (measures.best_fitness == 0.0) measures.best_fitness = best.at(arm.settings.task);
+            for (const RunRecord& run : store.runs(study, arm)) {
+                write_run(study, arm, run, measures, out);
+            }
+        }
+    }
+}
+
+void write_samples_csv(const Store& store, const std::vector<StoredStudy>& studies,
+                       std::ostream& out) {
+    fmt::print(out, "{},cycle,swarm_fitness,species,added_elements,controller_size\n",
+               identity_header);
+    for (const StoredStudy& study : studies) {
+        for (const StoredArm& arm : study.arms) {
+            for (const RunRecord& run : store.runs(study, arm)) {
+                const std::string start = identity(study, arm, run);
+                for (const sim::Sample& sample : run.result.samples) {
+                    fmt::print(out, "{},{},{},{},{},{}\n", start, sample.cycle,
+                               sample.swarm_fitness, sample.species, sample.added_elements,
+                               sample.controller_size);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace gene_clocks::experiment
