@@ -7,8 +7,8 @@ add_library(GeneClocks::options ALIAS gene_clocks_options)
 target_compile_features(gene_clocks_options INTERFACE cxx_std_20 c_std_99)
 target_compile_options(gene_clocks_options INTERFACE -ffp-contract=off)
 # Private headers are included by their path from here, so that each include names its layer.
-target_include_directories(gene_clocks_options INTERFACE
-    $<BUILD_INTERFACE:${CMAKE_CURRENT_LIST_DIR}/..>)
+cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH gene_clocks_root)
+target_include_directories(gene_clocks_options INTERFACE $<BUILD_INTERFACE:${gene_clocks_root}>)
 
 option(GENE_CLOCKS_WARNINGS_AS_ERRORS "Compile our own code with -Werror" ${PROJECT_IS_TOP_LEVEL})
 set(GENE_CLOCKS_SANITIZERS "" CACHE STRING "Comma-separated -fsanitize= list, e.g. address,undefined")

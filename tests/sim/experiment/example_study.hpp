@@ -7,6 +7,7 @@
 #include "sim/experiment/store/store.hpp"
 #include "sim/experiment/study/study.hpp"
 #include "sim/settings/document.hpp"
+#include "sim/settings/program_version.hpp"
 
 namespace gene_clocks::test {
 
