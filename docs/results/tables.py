@@ -248,7 +248,7 @@ def paired_of(study):
         ("arms × seeds", lambda row: f"{row['arms']} × {row['seeds']}"),
         ("identical runs", lambda row: number(100 * int(row["identical"]) /
                                               (int(row["arms"]) * int(row["seeds"])), 0) + " %"),
-        ("held against", lambda row: number(float(row["baseline_mean"]), 1)),
+        ("baseline", lambda row: number(float(row["baseline_mean"]), 1)),
         ("difference [95 %]", lambda row: (
             f"{signed(float(row['difference']), 1)} [{signed(float(row['difference_lower']), 1)}, "
             f"{signed(float(row['difference_upper']), 1)}]")),

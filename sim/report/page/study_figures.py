@@ -60,7 +60,7 @@ def boxes(group, folder):
     few = all(arm.numbers["runs"] <= POINTS_AT_MOST for arm in group.arms)
     caption = ("Boxes: quartiles and median; whiskers: the farthest run within 1.5 times the box; "
                + ("points: single runs. " if few else "points: runs beyond. ")
-               + "Vertical line: median of the arm that a row is held against; band: "
+               + "Vertical line: median of a row's baseline; band: "
                f"{percent(group.plain['margin_share'])} of it to both sides, the "
                "margin of equivalence. At the right: the verdict of the contrast.")
     for i, part in enumerate(parts):
@@ -187,7 +187,7 @@ def _looks(group, panels, members):
         return [("", look, own)]
     baselines = {held[0] for _, held in panels if len(held) == 2}
     is_shared = own.treatment and all(title == group.arms[held[-1]].condition for title, held in panels)
-    label = arms[0].label if len(baselines) == 1 else "what it is held against"
+    label = arms[0].label if len(baselines) == 1 else "its baseline"
     return [(label, palette.BASELINE, arms[0]), (own.treatment if is_shared else OWN_ARM, look, own)]
 
 
@@ -210,7 +210,7 @@ def _draw_rows(group, rows, title, few):
             _draw_row(axes, group, row, place, few)
     label_rows(axes, group, rows)
     axes.set_xlabel("$f_c$ (energy)")
-    handles = [Line2D([], [], color=figures.MUTED, linewidth=1.2, label="median held against"),
+    handles = [Line2D([], [], color=figures.MUTED, linewidth=1.2, label="baseline's median"),
                Patch(facecolor=figures.MUTED, alpha=0.25, label="margin of equivalence")]
     figures.draw_head(figure, handles if group.contrast_of else [], title)
     return figure

@@ -289,8 +289,8 @@ def _difference_maps(group, maps, folder):
     figure = _draw_maps(shown, cells, (-largest, largest), "PuOr_r",
                         "energy",
                         _title(group, f"$f_c$ less that of {figures.literal(_baseline(group, kind))}"))
-    caption = ("In each cell: the median less that of the arm that it is held against (see the "
-               "contrasts below), and what the contrast found. Cells without one are baselines.")
+    caption = ("In each cell: the median less the baseline's (see the contrasts "
+               "below), and what the contrast found. Cells without one are baselines.")
     text = " ".join(f"{group.arms[row['arm']].label}: "
                     f"median {wording.number(row['median'] - row['baseline_median'], 1)} from "
                     f"{group.arms[row['baseline']].label}; {row['verdict']}." for row in rows.values())
@@ -298,7 +298,7 @@ def _difference_maps(group, maps, folder):
 
 
 def _baseline(group, kind):
-    """In words: what the arms in a kind of contrasts are held against."""
+    """In words: the baseline of the arms in a kind of contrasts."""
     bases = [group.arms[row["baseline"]] for row in group.plain[kind]]
     labels = {base.label for base in bases}
     if len(labels) > 1 and kind == "treatment_contrasts":

@@ -99,7 +99,7 @@ def p_value(value):
 
 
 def changes(settings):
-    """How arms differ from those that they are held against, from settings as "key=value"."""
+    """How arms differ from their baselines, from settings as "key=value"."""
     words = []
     for setting in settings:
         key, value = setting.split("=", 1)
