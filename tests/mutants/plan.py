@@ -14,6 +14,7 @@ NEAT = programs("unit", "neat", "agent", "comparison_sources", "crossover", "dis
                 "population", "random", "tabu_list", "timestamp_source")
 AUTHENTICATION = programs("unit", "authentication", "sealed_frames")
 WIRE = programs("unit", "protocol", "wire")
+GENERAL = programs("unit", "protocol", "general_genome")
 CODEC = programs("unit", "neat", "message_codec")
 STORAGE = programs("unit", "storage", "stored_counter", "file_store")
 POWER_CUTS = programs("explorer", "storage", "simulated_disk")
@@ -40,7 +41,10 @@ AREAS = {
     "protocol/include/gene_clocks/stored_counter.hpp": [STORAGE, POWER_CUTS],
     "protocol/storage/": [STORAGE, POWER_CUTS],
     "protocol/authentication/": [AUTHENTICATION],
+    "protocol/include/gene_clocks/bytes.h": [WIRE, CODEC, GENERAL],
     "protocol/include/gene_clocks/checksum.h": [WIRE],
+    "protocol/include/gene_clocks/general_": [GENERAL],
+    "protocol/include/gene_clocks/schema.h": [GENERAL],
     "protocol/include/gene_clocks/genome_payload.h": [WIRE, CODEC],
     "protocol/include/gene_clocks/wire.h": [WIRE, CODEC],
     "protocol/": [MUST_NOT_COMPILE, PROTOCOL, SWARMS, EXPLORER, ORACLE, FUZZ, PAPER, NEAT, OPERATORS,

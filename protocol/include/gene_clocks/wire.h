@@ -8,6 +8,7 @@
 #ifndef GENE_CLOCKS_WIRE_H
 #define GENE_CLOCKS_WIRE_H
 
+#include <gene_clocks/bytes.h>
 #include <gene_clocks/checksum.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -28,45 +29,7 @@ union gene_clocks_float { float number; uint32_t bits; };
 #endif
 /* clang-format on */
 
-/* ---- What can be wrong ---------------------------------------------------------------------- */
-
-/* Why bytes are refused, or why something cannot be written. */
-enum gene_clocks_wire_error {
-    gene_clocks_wire_ok,
-    gene_clocks_wire_truncated,      /* a field ends beyond the bytes */
-    gene_clocks_wire_trailing,       /* bytes are left over */
-    gene_clocks_wire_too_long,       /* more bytes than the limits allow */
-    gene_clocks_wire_version,        /* not version 1 */
-    gene_clocks_wire_not_shortest,   /* the same value has a shorter encoding */
-    gene_clocks_wire_out_of_range,   /* a number has more bits than its field */
-    gene_clocks_wire_checksum,       /* the bytes are not those that were sent */
-    gene_clocks_wire_robot,          /* robot 0 is reserved for the initial genes */
-    gene_clocks_wire_stamp,          /* no clock of this fleet has such a stamp */
-    gene_clocks_wire_energy,         /* not finite, or beyond the limit */
-    gene_clocks_wire_too_many_genes, /* more than the limits allow */
-    gene_clocks_wire_gene_count,     /* not as many genes of a kind as announced */
-    gene_clocks_wire_not_ascending,  /* a mark is not above the one before it */
-    gene_clocks_wire_not_below,      /* a mark is not below the stamp */
-    gene_clocks_wire_genesis, /* an initial gene outside the genesis marks, or another inside */
-    gene_clocks_wire_kind,    /* inputs, one bias, outputs, then the rest */
-    gene_clocks_wire_ends,    /* a connection without its neurons, or into an input */
-    gene_clocks_wire_repeated_ends, /* two connections join the same neurons */
-    gene_clocks_wire_weight,        /* not finite, or beyond the limit */
-    gene_clocks_wire_no_room        /* writing: the buffer is too small */
-};
-
-/* What is wrong, and where: the first byte of the field or, where several fields do not go
- * together, of the gene. */
-struct gene_clocks_fault {
-    enum gene_clocks_wire_error error;
-    size_t offset;
-};
-
-GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_fault_at(
-    enum gene_clocks_wire_error error, size_t offset) {
-    struct gene_clocks_fault fault = {error, offset};
-    return fault;
-}
+/* ---- Limits --------------------------------------------------------------------------------- */
 
 /* What a deployment admits. Floats bound magnitudes; they are not negative and may be infinite
  * (still, only finite numbers are admitted). */
@@ -82,81 +45,7 @@ struct gene_clocks_wire_limits {
     uint32_t salt;
 };
 
-/* ---- Bytes ---------------------------------------------------------------------------------- */
-
-/* Bytes to read. Invariant: offset <= size. Where reading fails, the offset stays. */
-struct gene_clocks_reader {
-    const uint8_t* bytes;
-    size_t size;
-    size_t offset;
-};
-
-/* Where to write. What does not fit is counted and not written, so that a writer without room
- * tells how much is needed. */
-struct gene_clocks_writer {
-    uint8_t* bytes;
-    size_t capacity;
-    size_t size; /* what was written, or would have been; an error if above capacity */
-};
-
-GENE_CLOCKS_FUNCTION void gene_clocks_put_byte(struct gene_clocks_writer* writer, uint8_t byte) {
-    if (writer->size < writer->capacity) writer->bytes[writer->size] = byte;
-    ++writer->size;
-}
-
-/* Reads an unsigned LEB128 number of at most `bits` bits (16, 32 or 64) in its shortest form. */
-GENE_CLOCKS_FUNCTION enum gene_clocks_wire_error gene_clocks_get_varint(
-    struct gene_clocks_reader* reader, unsigned bits, uint64_t* value) {
-    size_t at = reader->offset;
-    if (at < reader->size && reader->bytes[at] < 0x80u) { /* as most numbers are */
-        *value = reader->bytes[at];
-        reader->offset = at + 1;
-        return gene_clocks_wire_ok;
-    }
-    uint64_t result = 0;
-    for (unsigned shift = 0;; shift += 7) {
-        if (at == reader->size) return gene_clocks_wire_truncated;
-        const uint8_t byte = reader->bytes[at++];
-        /* The last byte that fits has fewer than eight bits left, and none to go on. */
-        if (bits - shift < 8 && byte >> (bits - shift) != 0) return gene_clocks_wire_out_of_range;
-        result |= (uint64_t)(byte & 0x7fu) << shift;
-        if (byte < 0x80u) {
-            if (byte == 0 && shift != 0) return gene_clocks_wire_not_shortest;
-            break;
-        }
-    }
-    reader->offset = at;
-    *value = result;
-    return gene_clocks_wire_ok;
-}
-
-GENE_CLOCKS_FUNCTION void gene_clocks_put_varint(struct gene_clocks_writer* writer,
-                                                 uint64_t value) {
-    for (; value >= 0x80u; value >>= 7) {
-        gene_clocks_put_byte(writer, (uint8_t)(0x80u | (value & 0x7fu)));
-    }
-    gene_clocks_put_byte(writer, (uint8_t)value);
-}
-
-/* Four bytes, little-endian. Precondition: offset + 4 <= size. */
-GENE_CLOCKS_FUNCTION uint32_t gene_clocks_word_at(const uint8_t* bytes, size_t offset) {
-    return (uint32_t)bytes[offset] | (uint32_t)bytes[offset + 1] << 8 |
-           (uint32_t)bytes[offset + 2] << 16 | (uint32_t)bytes[offset + 3] << 24;
-}
-
-GENE_CLOCKS_FUNCTION enum gene_clocks_wire_error gene_clocks_get_word(
-    struct gene_clocks_reader* reader, uint32_t* value) {
-    if (reader->size - reader->offset < 4) return gene_clocks_wire_truncated;
-    *value = gene_clocks_word_at(reader->bytes, reader->offset);
-    reader->offset += 4;
-    return gene_clocks_wire_ok;
-}
-
-GENE_CLOCKS_FUNCTION void gene_clocks_put_word(struct gene_clocks_writer* writer, uint32_t value) {
-    for (unsigned shift = 0; shift < 32; shift += 8) {
-        gene_clocks_put_byte(writer, (uint8_t)(value >> shift & 0xffu));
-    }
-}
+/* ---- Floats --------------------------------------------------------------------------------- */
 
 /* Whether the float of these bits is finite and its magnitude at most `limit`. IEEE 754 orders
  * magnitudes as it orders their bits, so that no floating point is needed. */

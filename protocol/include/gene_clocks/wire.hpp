@@ -57,6 +57,12 @@ enum class WireError : std::uint8_t {
     weight = kernel::gene_clocks_wire_weight,
     /// Writing: the buffer is too small.
     no_room = kernel::gene_clocks_wire_no_room,
+    /// Not a general genome.
+    form = kernel::gene_clocks_wire_form,
+    /// A general genome after another schema.
+    schema = kernel::gene_clocks_wire_schema,
+    /// A value that the schema does not admit.
+    attribute = kernel::gene_clocks_wire_attribute,
 };
 
 /// The error's name, as `docs/wire-format.md` and the test vectors have it.
@@ -67,7 +73,7 @@ constexpr std::string_view name_of(WireError error) {
         "not_shortest", "out_of_range",   "checksum",   "robot",         "stamp",
         "energy",       "too_many_genes", "gene_count", "not_ascending", "not_below",
         "genesis",      "kind",           "ends",       "repeated_ends", "weight",
-        "no_room"};
+        "no_room",      "form",           "schema",     "attribute"};
     const auto index = static_cast<std::size_t>(error);
     return index < std::size(names) ? names[index] : "unknown";
 }
@@ -85,11 +91,11 @@ struct WireFault {
 };
 
 /// A value, or why there is none.
-template <class T>
+template <class T, class Fault = WireFault>
 class [[nodiscard]] WireResult {
 public:
     constexpr WireResult(T value) : content_(std::in_place_index<0>, std::move(value)) {}
-    constexpr WireResult(WireFault fault) : content_(std::in_place_index<1>, fault) {}
+    constexpr WireResult(Fault fault) : content_(std::in_place_index<1>, fault) {}
 
     constexpr explicit operator bool() const { return content_.index() == 0; }
     /// Preconditions of all three: there is a value; there is none for `fault()`.
@@ -97,10 +103,10 @@ public:
     constexpr const T& operator*() const { return *std::get_if<0>(&content_); }
     constexpr T* operator->() { return std::get_if<0>(&content_); }
     constexpr const T* operator->() const { return std::get_if<0>(&content_); }
-    constexpr WireFault fault() const { return *std::get_if<1>(&content_); }
+    constexpr Fault fault() const { return *std::get_if<1>(&content_); }
 
 private:
-    std::variant<T, WireFault> content_;
+    std::variant<T, Fault> content_;
 };
 
 /// What a deployment admits; everything beyond is refused before it costs memory.

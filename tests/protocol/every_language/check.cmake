@@ -1,0 +1,23 @@
+# Builds and runs plain.c by COMPILER in LANGUAGE (a -std=), with the warnings that users have on, and
+# for C++ also with the include inside of extern "C".
+set(warnings -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wundef -Werror)
+set(variants outside)
+if(LANGUAGE MATCHES "\\+\\+")
+    list(APPEND warnings -Wold-style-cast -Wzero-as-null-pointer-constant -Wmissing-declarations)
+    list(APPEND variants -DINSIDE_EXTERN_C)
+    set(text c++)
+else()
+    list(APPEND warnings -Wstrict-prototypes -Wmissing-prototypes)
+    set(text c)
+endif()
+get_filename_component(folder "${CMAKE_CURRENT_LIST_DIR}" ABSOLUTE)
+file(MAKE_DIRECTORY "${WORK}")
+foreach(variant IN LISTS variants)
+    set(define)
+    if(NOT variant STREQUAL "outside")
+        set(define "${variant}")
+    endif()
+    execute_process(COMMAND_ERROR_IS_FATAL ANY COMMAND "${COMPILER}" -x ${text} -std=${LANGUAGE} -O1
+        ${warnings} ${define} "-I${INCLUDE}" "${folder}/plain.c" -o "${WORK}/plain")
+    execute_process(COMMAND_ERROR_IS_FATAL ANY COMMAND "${WORK}/plain")
+endforeach()
