@@ -9,7 +9,7 @@
 #include <gene_clocks/general_genome.hpp>
 #include <vector>
 
-#include "require.hpp"
+#include "fuzz/require.hpp"
 
 namespace {
 

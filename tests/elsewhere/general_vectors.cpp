@@ -2,13 +2,13 @@
 // vectors.cpp).
 //
 // Usage: general_vectors FILE
-#include "support/general_vectors.hpp"
+#include "tests/support/general_vectors.hpp"
 
 #include <bit>
 #include <cstdio>
 #include <string>
 
-#include "protocol/general_in_c.h"
+#include "tests/protocol/general_in_c.h"
 
 namespace {
 

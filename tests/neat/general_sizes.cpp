@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "../support/travelled_genome.hpp"
+#include "tests/support/travelled_genome.hpp"
 
 namespace {
 

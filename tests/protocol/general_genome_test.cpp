@@ -9,10 +9,10 @@
 #include <set>
 #include <string>
 
-#include "general_in_c.h"
-#include "support/allocations.hpp"
-#include "support/general_vectors.hpp"
-#include "support/property.hpp"
+#include "tests/protocol/general_in_c.h"
+#include "tests/support/allocations.hpp"
+#include "tests/support/general_vectors.hpp"
+#include "tests/support/property.hpp"
 
 namespace gene_clocks {
 namespace {

@@ -1,4 +1,4 @@
-#include "general_in_c.h"
+#include "tests/protocol/general_in_c.h"
 
 #include <gene_clocks/general_genome.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "support/wire_vectors.hpp"
+#include "tests/support/wire_vectors.hpp"
 
 // The test vectors of general genomes, off their file.
 
