@@ -45,8 +45,9 @@ private:
     static constexpr std::uint8_t genesis_count = 2;
 
     void add_robot(std::uint32_t id) {
-        const Clock clock(RobotId{id}, genesis_count, limits_);
-        robots_.push_back({clock, clock.durable_needed()});
+        Clock clock(RobotId{id}, genesis_count, limits_);
+        const auto stored = clock.durable_needed();
+        robots_.push_back({std::move(clock), stored});
     }
 
     void step() {
@@ -131,8 +132,7 @@ private:
     /// Memory is lost, the disk stays; genes that the disk does not cover were never seen by
     /// others.
     void crash(Robot& robot) {
-        const auto restored =
-            Clock::from_state(robot.clock.robot(), {robot.disk, robot.disk}, limits_);
+        auto restored = Clock::from_state(robot.clock.robot(), {robot.disk, robot.disk}, limits_);
         GENE_CLOCKS_REQUIRE(restored.has_value());
         for (const Mark mark : robot.known) {
             if (mark.robot == robot.clock.robot() && mark.counter >= robot.disk) {
@@ -141,7 +141,7 @@ private:
             }
         }
         std::erase_if(robot.known, [&](Mark mark) { return mark.counter >= robot.disk; });
-        robot.clock = *restored;
+        robot.clock = *std::move(restored);
     }
 
     fuzz::ByteReader bytes_;

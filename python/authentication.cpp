@@ -110,11 +110,13 @@ void define_error(py::module_& module) {
 
 void define_authentication(py::module_& module) {
     define_error(module);
-    py::class_<Sealer>(module, "Sealer",
-                       "Seals frames under a key of 32 bytes. numbers is a GeneClock of its own, "
-                       "stored and restarted as that of genes is.")
-        .def(py::init([](const py::bytes& key, const GeneClock& numbers) {
-                 return std::make_unique<Sealer>(key_of(key), numbers);
+    py::class_<Sealer>(
+        module, "Sealer",
+        "Seals frames under a key of 32 bytes. numbers is a GeneClock of its own, "
+        "stored and restarted as that of genes is; it is handed over, and mints nothing more "
+        "itself.")
+        .def(py::init([](const py::bytes& key, GeneClock& numbers) {
+                 return std::make_unique<Sealer>(key_of(key), std::move(numbers));
              }),
              "key"_a, "numbers"_a)
         .def(

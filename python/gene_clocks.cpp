@@ -47,10 +47,10 @@ GeneClock make_clock(std::uint32_t robot, std::uint64_t genesis_count, GeneClock
 }
 
 GeneClock restart_clock(std::uint32_t robot, std::uint64_t stored, GeneClock::Limits limits) {
-    const auto clock = GeneClock::restart(RobotId{robot}, stored, limits);
+    auto clock = GeneClock::restart(RobotId{robot}, stored, limits);
     if (!clock)
         throw py::value_error("no clock of this robot with these limits stored that counter");
-    return *clock;
+    return *std::move(clock);
 }
 
 std::optional<std::vector<InnovationNumber>> mint_many(GeneClock& clock, std::uint64_t count) {

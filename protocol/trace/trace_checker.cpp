@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <variant>
 
 namespace gene_clocks::trace {
@@ -55,10 +56,10 @@ std::optional<Violation> TraceChecker::check(Seat& seat, const Sends& entry) {
 
 std::optional<Violation> TraceChecker::check(Seat& seat, const Receives& entry) {
     if (entry.message >= stamps_.size()) return Violation::no_such_message;
-    GeneClock after = seat.clock;
+    GeneClock after = seat.clock.clone();
     if (!after.observe(stamps_[entry.message])) return Violation::not_admitted;
     if (entry.next != after.stamp()) return Violation::wrong_maximum;
-    seat.clock = after;
+    seat.clock = std::move(after);
     return std::nullopt;
 }
 
@@ -85,8 +86,9 @@ TraceChecker::Standing TraceChecker::standing(RobotId robot) {
 TraceChecker::Seat& TraceChecker::seat_of(RobotId robot) {
     const auto place = seats_.find(robot);
     if (place != seats_.end()) return place->second;
-    const GeneClock clock{robot, genesis_count_, limits_};
-    return seats_.emplace(robot, Seat{clock, clock.durable_needed()}).first->second;
+    GeneClock clock{robot, genesis_count_, limits_};
+    const std::uint64_t stored = clock.durable_needed();
+    return seats_.emplace(robot, Seat{std::move(clock), stored}).first->second;
 }
 
 }  // namespace gene_clocks::trace

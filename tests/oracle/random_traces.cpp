@@ -68,8 +68,9 @@ private:
 
     void step() {
         const RobotId id = random_.pick(ids_);
-        const GeneClock fresh{id, genesis_, limits_};
-        Robot& robot = robots_.try_emplace(id, Robot{fresh, fresh.durable_needed()}).first->second;
+        GeneClock fresh{id, genesis_, limits_};
+        const std::uint64_t stored = fresh.durable_needed();
+        Robot& robot = robots_.try_emplace(id, Robot{std::move(fresh), stored}).first->second;
         switch (random_.below(6)) {
             case 0:
                 if (const auto marks = robot.clock.mint(random_.below(4))) writer_.minted(*marks);

@@ -113,8 +113,9 @@ private:
     Robot& find(RobotId id) {
         const auto place = robots_.find(id);
         if (place != robots_.end()) return place->second;
-        const Clock clock{id, genesis_count_, limits_};
-        Robot robot{clock, clock.durable_needed(), {}};
+        Clock clock{id, genesis_count_, limits_};
+        const Counter stored = clock.durable_needed();
+        Robot robot{std::move(clock), stored, {}};
         for (Counter i = 1; i <= genesis_count_; ++i) robot.known.push_back({i, genesis_robot});
         return robots_.emplace(id, std::move(robot)).first->second;
     }

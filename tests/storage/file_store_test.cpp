@@ -1,6 +1,7 @@
 // The store on a real file system: what is refused and with which error.
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,6 +11,7 @@
 #include <gene_clocks/storage/file_store.hpp>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/temporary_folder.hpp"
@@ -133,6 +135,61 @@ TEST_F(FileStoreTest, BelongsToOneProcess) {
     EXPECT_EQ(status.system_error, EWOULDBLOCK);
 }
 
+TEST_F(FileStoreTest, IsHeldWhateverBecomesOfItsFilesAndItsName) {
+    auto first = store();
+    ASSERT_TRUE(first.create(5));
+    for (const auto& file : std::filesystem::directory_iterator{folder_.path()}) {
+        std::filesystem::remove(file);
+    }
+    EXPECT_EQ(store().open().error, StorageError::in_use);
+    EXPECT_EQ(store().create(1).error, StorageError::in_use);
+
+    const auto elsewhere = std::filesystem::path{folder_.path()} += "-renamed";
+    std::filesystem::rename(folder_.path(), elsewhere);
+    FileStore renamed{PosixFiles{elsewhere.string()}, robot};
+    EXPECT_EQ(renamed.create(1).error, StorageError::in_use);
+    EXPECT_TRUE(first.store(6)) << "its owner goes on";
+    std::filesystem::rename(elsewhere, folder_.path());
+}
+
+TEST_F(FileStoreTest, AcknowledgesNothingInAFolderThatIsGone) {
+    auto first = store();
+    ASSERT_TRUE(first.create(5));
+    std::filesystem::remove_all(folder_.path());
+    EXPECT_EQ(first.store(6), (StorageStatus{StorageError::device, ENOENT}));
+}
+
+TEST_F(FileStoreTest, StaysWithTheParentAfterAFork) {
+    auto store_of_parent = store();
+    ASSERT_TRUE(store_of_parent.create(5));
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        const auto is_refused = [](StorageStatus status) {
+            return status == StorageStatus{StorageError::in_use, EWOULDBLOCK};
+        };
+        auto anew = store();
+        const bool all_are = is_refused(store_of_parent.store(9)) &&
+                             is_refused(store_of_parent.store(5)) &&  // also what needs no writing
+                             is_refused(store_of_parent.open()) &&
+                             is_refused(store_of_parent.create(1)) && is_refused(anew.open());
+        ::_exit(all_are ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    EXPECT_TRUE(store_of_parent.store(9));
+    EXPECT_EQ(store().open().error, StorageError::in_use) << "the child's end released nothing";
+}
+
+TEST_F(FileStoreTest, IsHandedOnWhole) {
+    auto first = store();
+    ASSERT_TRUE(first.create(5));
+    auto second = std::move(first);
+    EXPECT_EQ(first.store(5).error, StorageError::in_use);  // NOLINT(bugprone-use-after-move)
+    EXPECT_TRUE(second.store(6));
+}
+
 TEST_F(FileStoreTest, BelongsToOneRobot) {
     ASSERT_TRUE(store().create(5));
     EXPECT_EQ(store(RobotId{8}).open().error, StorageError::other_robot);
@@ -183,7 +240,7 @@ TEST_F(FileStoreTest, KeepsTheOldCounterWhereTheNewOneCannotBeWritten) {
     auto full = store();
     ASSERT_TRUE(full.create(5));
     std::filesystem::create_directory(folder_.path() / "counter.new");
-    EXPECT_EQ(full.store(6), (StorageStatus{StorageError::device, EEXIST}));
+    EXPECT_EQ(full.store(6), (StorageStatus{StorageError::device, EISDIR}));
     EXPECT_EQ(full.stored(), 5u);
     std::filesystem::remove(folder_.path() / "counter.new");
     EXPECT_TRUE(full.store(6));

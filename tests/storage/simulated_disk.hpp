@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -142,7 +143,15 @@ struct Ends {};
 
 /// One life of a process on a disk. At one operation something may go wrong, at one it ends.
 struct Life {
-    enum class Fault { none, fails_undone, fails_done, first_copy_rots, second_copy_rots };
+    enum class Fault {
+        none,
+        fails_undone,
+        fails_done,
+        first_copy_rots,
+        second_copy_rots,
+        first_copy_unread,  ///< it cannot be read in this life, at whatever operation
+        second_copy_unread
+    };
 
     Disk disk;
     Slip slip = Slip::none;
@@ -162,6 +171,9 @@ struct Life {
     Fault step() {
         if (operations == end_at) throw Ends{};
         if (operations++ != fault_at) return Fault::none;
+        if (fault == Fault::first_copy_unread || fault == Fault::second_copy_unread) {
+            return Fault::none;
+        }
         if (fault == Fault::fails_done || fault == Fault::fails_undone) {
             has_failed = true;
             return fault;
@@ -186,9 +198,15 @@ public:
     explicit SimulatedFiles(Life& life) : life_{&life} {}
 
     int acquire() { return 0; }
+    [[nodiscard]] int check_owner() const { return 0; }
 
     int read(const char* name, std::span<std::byte> bytes, std::size_t& size) const {
         const Disk& disk = life_->disk;
+        const bool is_first = std::string_view{name} == "counter.1";
+        if (life_->fault ==
+            (is_first ? Life::Fault::first_copy_unread : Life::Fault::second_copy_unread)) {
+            return EIO;
+        }
         std::string contents;
         if (life_->slip == Slip::older_generation) {
             if (!disk.cached.contains(name)) return ENOENT;

@@ -32,6 +32,7 @@ struct Scope {
     bool renames_tear = false;  ///< as on FAT: a file may be gone, or under both names
     bool copies_rot = false;
     bool operations_fail = false;
+    bool reads_fail = false;  ///< one copy cannot be read in a life
 };
 
 struct Result {
@@ -51,6 +52,10 @@ public:
             open_.pop_front();
             using enum Life::Fault;
             const int operations = live(world, none, -1);
+            if (scope_.reads_fail) {
+                live(world, first_copy_unread, 0);
+                live(world, second_copy_unread, 0);
+            }
             for (int at = 0; at < operations; ++at) {
                 if (scope_.operations_fail) {
                     live(world, fails_undone, at);
@@ -201,13 +206,18 @@ INSTANTIATE_TEST_SUITE_P(
 #ifndef GENE_CLOCKS_SANITIZED  // there the small ones have to do
 INSTANTIATE_TEST_SUITE_P(
     SimulatedDiskWithFaults, LosesNothing,
-    testing::Values(RecordedScope{"OneCopyRots", {.largest = 3, .copies_rot = true}, 1090, 175836},
-                    RecordedScope{
-                        "OperationsFail", {.largest = 3, .operations_fail = true}, 1112, 393085},
-                    RecordedScope{"RenamesTearAndOperationsFail",
-                                  {.largest = 2, .renames_tear = true, .operations_fail = true},
-                                  171,
-                                  42478}),
+    testing::Values(
+        RecordedScope{"OneCopyIsUnread", {.largest = 4, .reads_fail = true}, 526, 31619},
+        RecordedScope{"OneCopyRotsAndOneIsUnread",
+                      {.largest = 2, .copies_rot = true, .reads_fail = true},
+                      585,
+                      89001},
+        RecordedScope{"OneCopyRots", {.largest = 3, .copies_rot = true}, 1090, 175836},
+        RecordedScope{"OperationsFail", {.largest = 3, .operations_fail = true}, 1112, 393085},
+        RecordedScope{"RenamesTearAndOperationsFail",
+                      {.largest = 2, .renames_tear = true, .operations_fail = true},
+                      171,
+                      42478}),
     name_of);
 #endif
 

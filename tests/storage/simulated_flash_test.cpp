@@ -414,6 +414,22 @@ TEST(FlashStore, KeepsACounterAndCountsItsWear) {
     EXPECT_EQ(store.stored(), 100u);
 }
 
+TEST(FlashStore, IsHandedOnWhole) {
+    Life life;
+    Store first{SimulatedFlash{life}, robot};
+    ASSERT_TRUE(first.create(5));
+    Store second{std::move(first)};
+    EXPECT_EQ(first.stored(), 0u);  // NOLINT(bugprone-use-after-move): what is left is tested
+    EXPECT_EQ(first.store(6).error, StorageError::not_open);
+    EXPECT_EQ(second.stored(), 5u);
+    EXPECT_TRUE(second.store(6));
+    EXPECT_EQ(second.flushes(), 2u);
+    Store third{SimulatedFlash{life}, robot};
+    EXPECT_TRUE(third.open());
+    EXPECT_EQ(third.stored(), 6u);
+}
+static_assert(!std::is_copy_constructible_v<Store>);
+
 TEST(FlashStore, RefusesAnotherRobotsAndWhatItCannotRead) {
     Life life;
     ASSERT_TRUE((Store{SimulatedFlash{life}, robot}.create(5)));

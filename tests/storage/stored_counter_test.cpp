@@ -87,7 +87,7 @@ TEST(StoredCounter, NoticesEveryTearBetweenTwoRecordsAndEmptiness) {
 
 TEST(StoredCounter, TheLargestOfTwoRecordsCounts) {
     using enum StorageError;
-    const RecordReading five{none, 5}, six{none, 6}, bad{damaged}, absent{missing},
+    const RecordReading five{none, 5}, six{none, 6}, bad{damaged}, absent{missing}, unread{device},
         foreign{other_robot}, newer{unknown_version};
     EXPECT_EQ(merge(five, six).counter, 6u);
     EXPECT_EQ(merge(six, five).counter, 6u);
@@ -97,6 +97,12 @@ TEST(StoredCounter, TheLargestOfTwoRecordsCounts) {
     EXPECT_EQ(merge(bad, absent).error, damaged);
     EXPECT_EQ(merge(absent, bad).error, damaged);
     EXPECT_EQ(merge(absent, absent).error, missing);
+    EXPECT_EQ(merge(five, unread).counter, 5u);
+    EXPECT_EQ(merge(unread, five).counter, 5u);
+    for (const auto& other : {bad, absent, unread}) {
+        EXPECT_EQ(merge(unread, other).error, device) << "it may be read another time";
+        EXPECT_EQ(merge(other, unread).error, device);
+    }
     EXPECT_EQ(merge(five, foreign).error, other_robot);
     EXPECT_EQ(merge(newer, five).error, unknown_version);
 }

@@ -38,8 +38,9 @@ public:
                 Slip slip = Slip::none)
         : genesis_count_{genesis_count}, limits_{limits}, slip_{slip}, is_left_(robots, false) {
         for (std::size_t r = 0; r < robots; ++r) {
-            const GeneClock clock{id(r), genesis_count, limits};
-            robots_.push_back({clock, clock.durable_needed(), {}});
+            GeneClock clock{id(r), genesis_count, limits};
+            const std::uint64_t stored = clock.durable_needed();
+            robots_.push_back({std::move(clock), stored, {}});
         }
         rewire(Topology::random, 1);
     }

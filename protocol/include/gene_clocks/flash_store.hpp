@@ -45,6 +45,16 @@ public:
     static_assert(slots_per_sector >= 8, "a sector must hold some records");
 
     FlashStore(Flash flash, RobotId robot) : flash_(std::move(flash)), robot_(robot) {}
+    /// What is left behind is `not_open`: of two that append, each would write over the other.
+    FlashStore(FlashStore&& other) noexcept
+        : flash_(std::move(other.flash_)),
+          robot_(other.robot_),
+          sectors_(other.sectors_),
+          home_(other.home_),
+          stored_(std::exchange(other.stored_, 0)),
+          flushes_(other.flushes_),
+          erasures_(other.erasures_) {}
+    FlashStore& operator=(FlashStore&&) = delete;
 
     /// First use: stores `counter` where nothing is stored yet. Only for a robot id that has never
     /// been used, since a fresh clock repeats marks. Both sectors must be erased, or hold no more

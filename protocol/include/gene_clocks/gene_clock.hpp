@@ -49,6 +49,10 @@ inline constexpr std::size_t admission_kinds = 6;
 /// A robot that may crash and come back writes `durable_needed()` to stable storage before
 /// anything leaves it, and goes on with `restart()`.
 ///
+/// Two clocks of one robot that both mint make the same marks, so a clock is handed on, not copied:
+/// it moves, and what is left behind marks nothing and takes no stamp above its own. Where a second
+/// one is meant, as in a look ahead, `clone()` says so.
+///
 /// No allocation, no exceptions, no I/O. Not thread-safe: one owner.
 template <std::unsigned_integral Counter>
 class BasicGeneClock {
@@ -79,6 +83,31 @@ public:
             !kernel::gene_clocks_start(&state_, &limits_, genesis_count)) {
             std::abort();
         }
+    }
+
+    constexpr BasicGeneClock(BasicGeneClock&& other) noexcept
+        : limits_{other.limits_}, state_{other.state_}, robot_{other.robot_} {
+        other.exhaust();
+    }
+    constexpr BasicGeneClock& operator=(BasicGeneClock&& other) noexcept {
+        if (this != &other) {
+            limits_ = other.limits_;
+            state_ = other.state_;
+            robot_ = other.robot_;
+            other.exhaust();
+        }
+        return *this;
+    }
+    BasicGeneClock(const BasicGeneClock&) = delete;
+    BasicGeneClock& operator=(const BasicGeneClock&) = delete;
+    ~BasicGeneClock() = default;
+
+    /// Another clock of the same robot, in the same state: to try what would be, or as the clock of
+    /// a simulated robot. Only one of the two may mark genes that leave the robot.
+    [[nodiscard]] constexpr BasicGeneClock clone() const {
+        BasicGeneClock copy{{limits_.maximum, limits_.block, limits_.window}, robot_};
+        copy.state_ = state_;
+        return copy;
     }
 
     /// A clock that goes on exactly where another one of this robot was left, as in a snapshot;
@@ -158,6 +187,12 @@ public:
 private:
     constexpr BasicGeneClock(Limits limits, RobotId robot)
         : limits_{limits.maximum, limits.block, limits.window}, robot_{robot} {}
+
+    /// What is left of a clock that has moved: no counter is free below its maximum.
+    constexpr void exhaust() {
+        state_.durable = state_.next;
+        limits_.maximum = state_.next;
+    }
 
     kernel::gene_clocks_limits<Counter> limits_;
     kernel::gene_clocks_state<Counter> state_{};

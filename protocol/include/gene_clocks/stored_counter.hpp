@@ -19,7 +19,7 @@ enum class StorageError : std::uint8_t {
     damaged,          ///< something was stored, and nothing of it can be trusted
     other_robot,      ///< it was stored by another robot
     unknown_version,  ///< it was stored by another version of this format
-    in_use,           ///< another process has it open
+    in_use,           ///< another process has it open, this one's parent also
     not_open,         ///< to be written before it was opened or created
     bad_counter,      ///< no clock has it: zero, or beyond the maximum
     device,           ///< the file system or the flash memory reports an error
@@ -133,6 +133,8 @@ constexpr RecordReading read_record(RobotId robot, std::span<const std::byte> by
 /// *two* records hold it or a larger one: damage to any one record, torn or rotten, leaves another.
 /// Were one record enough, a damaged newest one could not be told from one that was never
 /// acknowledged, and going back to the one before it could make marks again that others have seen.
+/// For the same reason it does not matter whether one record is damaged or cannot be read at all.
+/// Where neither says anything, one that could not be read may say it another time.
 constexpr RecordReading merge(RecordReading a, RecordReading b) {
     const auto foreign = [](RecordReading reading) {
         return reading.error == StorageError::other_robot ||
@@ -145,7 +147,11 @@ constexpr RecordReading merge(RecordReading a, RecordReading b) {
     }
     if (a.error == StorageError::none) return a;
     if (b.error == StorageError::none) return b;
-    return a.error == StorageError::damaged ? a : b;
+    for (const StorageError error : {StorageError::device, StorageError::damaged}) {
+        if (a.error == error) return a;
+        if (b.error == error) return b;
+    }
+    return a;
 }
 
 }  // namespace gene_clocks

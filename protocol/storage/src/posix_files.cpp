@@ -5,12 +5,12 @@
 #include <cerrno>
 #include <cstdio>
 #include <gene_clocks/storage/posix_files.hpp>
+#include <utility>
 
 namespace gene_clocks::storage {
 namespace {
 
 constexpr const char* temporary_name = "counter.new";
-constexpr const char* lock_name = "counter.lock";
 
 /// Repeats what a signal interrupted. Returns 0 or an errno value.
 template <class Call>
@@ -33,31 +33,39 @@ int synchronise(int descriptor) {
     return checked([&] { return ::fsync(descriptor); });
 }
 
+/// The last chance of the system to report what went wrong; after EINTR it is closed as well.
+int close_checked(int& descriptor) {
+    const bool is_closed = ::close(std::exchange(descriptor, -1)) == 0;
+    return is_closed || errno == EINTR ? 0 : errno;
+}
+
+/// Where whatever it says about the file no longer matters.
 void close_if_open(int& descriptor) {
-    if (descriptor >= 0) ::close(descriptor);
-    descriptor = -1;
+    if (descriptor >= 0) close_checked(descriptor);
 }
 
 }  // namespace
 
 PosixFiles::~PosixFiles() {
     close_if_open(temporary_descriptor_);
-    close_if_open(lock_descriptor_);
     close_if_open(folder_descriptor_);
 }
 
 int PosixFiles::acquire() {
-    close_if_open(lock_descriptor_);
     close_if_open(folder_descriptor_);
     if (const int error =
             open_in(AT_FDCWD, folder_.c_str(), O_RDONLY | O_DIRECTORY, folder_descriptor_)) {
         return error;
     }
-    if (const int error =
-            open_in(folder_descriptor_, lock_name, O_RDWR | O_CREAT, lock_descriptor_)) {
+    if (const int error = checked([&] { return ::flock(folder_descriptor_, LOCK_EX | LOCK_NB); })) {
         return error;
     }
-    return checked([&] { return ::flock(lock_descriptor_, LOCK_EX | LOCK_NB); });
+    owner_ = ::getpid();
+    return 0;
+}
+
+int PosixFiles::check_owner() const {
+    return owner_ == ::getpid() ? 0 : EWOULDBLOCK;
 }
 
 int PosixFiles::read(const char* name, std::span<std::byte> bytes, std::size_t& size) const {
@@ -72,14 +80,15 @@ int PosixFiles::read(const char* name, std::span<std::byte> bytes, std::size_t& 
         if (count <= 0) break;
         size += static_cast<std::size_t>(count);
     }
-    ::close(descriptor);
-    return error;
+    const int close_error = close_checked(descriptor);
+    return error != 0 ? error : close_error;
 }
 
 int PosixFiles::write_temporary(std::span<const std::byte> bytes) {
     close_if_open(temporary_descriptor_);
     // Always a new file: never one that is still, or also, known under another name.
-    ::unlinkat(folder_descriptor_, temporary_name, 0);
+    const int unlinked = checked([&] { return ::unlinkat(folder_descriptor_, temporary_name, 0); });
+    if (unlinked != 0 && unlinked != ENOENT) return unlinked;
     if (const int error = open_in(folder_descriptor_, temporary_name, O_WRONLY | O_CREAT | O_EXCL,
                                   temporary_descriptor_)) {
         return error;
@@ -91,6 +100,7 @@ int PosixFiles::write_temporary(std::span<const std::byte> bytes) {
             })) {
             return error;
         }
+        if (count == 0) return EIO;  // or this would never end
         bytes = bytes.subspan(static_cast<std::size_t>(count));
     }
     return 0;
@@ -98,8 +108,8 @@ int PosixFiles::write_temporary(std::span<const std::byte> bytes) {
 
 int PosixFiles::sync_temporary() {
     const int error = synchronise(temporary_descriptor_);
-    close_if_open(temporary_descriptor_);
-    return error;
+    const int close_error = close_checked(temporary_descriptor_);
+    return error != 0 ? error : close_error;
 }
 
 int PosixFiles::rename_temporary(const char* name) {

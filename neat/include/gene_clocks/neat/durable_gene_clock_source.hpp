@@ -27,10 +27,10 @@ public:
     static std::unique_ptr<DurableGeneClockSource> restart(RobotId robot, Storage& storage,
                                                            GeneClock::Limits limits = {},
                                                            AdmissionGate::Policy admission = {}) {
-        const auto clock = GeneClock::restart(robot, storage.stored(), limits);
+        auto clock = GeneClock::restart(robot, storage.stored(), limits);
         if (!clock) return nullptr;
         return std::unique_ptr<DurableGeneClockSource>(
-            new DurableGeneClockSource(*clock, storage, limits, admission));
+            new DurableGeneClockSource(*std::move(clock), storage, limits, admission));
     }
 
     std::optional<SplitMarks> mark_split(const Genome&, std::size_t, double) override {
@@ -76,9 +76,9 @@ public:
     StorageStatus storage_status() const { return status_; }
 
 private:
-    DurableGeneClockSource(const GeneClock& clock, Storage& storage, GeneClock::Limits limits,
+    DurableGeneClockSource(GeneClock clock, Storage& storage, GeneClock::Limits limits,
                            AdmissionGate::Policy admission)
-        : clock_(clock), gate_(admission), storage_(storage), limits_(limits) {}
+        : clock_(std::move(clock)), gate_(admission), storage_(storage), limits_(limits) {}
 
     /// Moves `births_` beyond a birth, a block at a time; false beyond the largest counter.
     bool reserve_birth(std::uint32_t birth) {

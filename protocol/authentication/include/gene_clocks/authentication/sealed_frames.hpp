@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -25,7 +26,7 @@ using Key = std::array<std::uint8_t, 32>;
 class Sealer {
 public:
     /// `numbers`: fresh, or restarted from what was stored.
-    Sealer(const Key& key, GeneClock numbers) : key_(key), numbers_(numbers) {}
+    Sealer(const Key& key, GeneClock numbers) : key_(key), numbers_(std::move(numbers)) {}
     ~Sealer();
     Sealer(const Sealer&) = delete;
     Sealer& operator=(const Sealer&) = delete;

@@ -19,6 +19,10 @@ namespace gene_clocks::storage {
 /// whole and holds at least what was acknowledged, even where a rename is not atomic (FAT) or one
 /// file rots. docs/durability-and-hostile-peers.md has the reasoning.
 ///
+/// One process has it at a time: a lock on the folder keeps others out, and a child that comes of
+/// fork() is told `in_use` whatever it asks for. So a program that puts itself into the background
+/// opens the store there.
+///
 /// `Files` is the file system: PosixFiles, or a simulated disk. Not thread-safe: one owner.
 template <class Files>
 class BasicFileStore {
@@ -53,6 +57,7 @@ public:
     /// was stored before still is, and `store()` may be tried again.
     StorageStatus store(std::uint64_t counter) {
         if (stored_ == 0) return {StorageError::not_open};
+        if (const auto status = acquire(); !status) return status;
         return counter <= stored_ ? StorageStatus{} : write(counter);
     }
 
@@ -63,25 +68,31 @@ public:
 
 private:
     StorageStatus acquire() {
-        if (is_acquired_) return {};
-        const int error = files_.acquire();
-        is_acquired_ = error == 0;
+        const int error = is_acquired_ ? files_.check_owner() : files_.acquire();
+        is_acquired_ |= error == 0;
         return error == EWOULDBLOCK ? StorageStatus{StorageError::in_use, error} : checked(error);
     }
 
     StorageStatus read() {
+        int unread = 0;
         for (std::size_t copy : {0u, 1u}) {
             // One byte more than a record, so that a longer file is not taken for one.
             std::array<std::byte, counter_record_size + 1> bytes{};
             std::size_t size = 0;
             const int error = files_.read(names[copy], bytes, size);
-            if (error != 0 && error != ENOENT) return checked(error);
-            found_[copy] = error == ENOENT ? RecordReading{StorageError::missing}
-                                           : read_record(robot_, std::span{bytes}.first(size));
+            if (error == 0) {
+                found_[copy] = read_record(robot_, std::span{bytes}.first(size));
+            } else if (error == ENOENT) {
+                found_[copy] = {StorageError::missing};
+            } else {
+                found_[copy] = {StorageError::device};
+                unread = error;
+            }
         }
         // The copy to write first is the one that can be spared.
         spare_ = found_[1].counter < found_[0].counter ? 1 : 0;
-        return {merge(found_[0], found_[1]).error};
+        const StorageError error = merge(found_[0], found_[1]).error;
+        return {error, error == StorageError::device ? unread : 0};
     }
 
     StorageStatus write(std::uint64_t counter) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,14 +19,19 @@ public:
     PosixFiles(PosixFiles&& other) noexcept
         : folder_(std::move(other.folder_)),
           folder_descriptor_(std::exchange(other.folder_descriptor_, -1)),
-          lock_descriptor_(std::exchange(other.lock_descriptor_, -1)),
+          owner_(std::exchange(other.owner_, 0)),
           temporary_descriptor_(std::exchange(other.temporary_descriptor_, -1)) {}
     PosixFiles& operator=(PosixFiles&&) = delete;
     ~PosixFiles();
 
     /// Opens the folder for this process alone, until destruction or death. EWOULDBLOCK where
-    /// another has it.
+    /// another has it. The lock is on the folder itself, which no removal of files undoes; the file
+    /// system must have flock(), as local ones do.
     int acquire();
+
+    /// EWOULDBLOCK in a process that has not acquired the folder itself: a child shares its
+    /// parent's lock.
+    [[nodiscard]] int check_owner() const;
 
     /// Reads at most bytes.size() bytes; `size` is how many there were. ENOENT where there is no
     /// file.
@@ -39,7 +45,7 @@ public:
 private:
     std::string folder_;
     int folder_descriptor_ = -1;
-    int lock_descriptor_ = -1;
+    std::intmax_t owner_ = 0;  // the process that has acquired it
     int temporary_descriptor_ = -1;
 };
 
