@@ -14,6 +14,7 @@ NEAT = programs("unit", "neat", "agent", "comparison_sources", "crossover", "dis
                 "population", "random", "tabu_list", "timestamp_source")
 AUTHENTICATION = programs("unit", "authentication", "sealed_frames")
 WIRE = programs("unit", "protocol", "wire")
+FRAGMENTS = programs("unit", "protocol", "fragments")
 GENERAL = programs("unit", "protocol", "general_genome")
 CODEC = programs("unit", "neat", "message_codec")
 STORAGE = programs("unit", "storage", "stored_counter", "file_store")
@@ -43,6 +44,7 @@ AREAS = {
     "protocol/authentication/": [AUTHENTICATION],
     "protocol/include/gene_clocks/bytes.h": [WIRE, CODEC, GENERAL],
     "protocol/include/gene_clocks/checksum.h": [WIRE],
+    "protocol/include/gene_clocks/fragments.h": [FRAGMENTS],
     "protocol/include/gene_clocks/general_": [GENERAL],
     "protocol/include/gene_clocks/schema.h": [GENERAL],
     "protocol/include/gene_clocks/genome_payload.h": [WIRE, CODEC],

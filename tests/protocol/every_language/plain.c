@@ -3,6 +3,7 @@
 #ifdef INSIDE_EXTERN_C
 extern "C" {
 #endif
+#include <gene_clocks/fragments.h>
 #include <gene_clocks/general_genome.h>
 #ifdef INSIDE_EXTERN_C
 }
@@ -19,6 +20,24 @@ static const struct gene_clocks_gene_class classes[] = {
     {"node", true, gene_clocks_no_ends, node_attributes, 2},
     {"link", true, gene_clocks_ends_by_index, link_attributes, 3}};
 static const struct gene_clocks_schema schema = {2, GENE_CLOCKS_NULL, 0, classes, 2};
+
+/* Splits a message and puts it together again. */
+static int fragments_come_together(void) {
+    const uint8_t message[12] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+    static uint8_t memory[12];
+    static struct gene_clocks_assembly assembly;
+    struct gene_clocks_assembler assembler = {&assembly, memory, sizeof memory, 1, 0};
+    struct gene_clocks_split split;
+    const uint8_t* whole = GENE_CLOCKS_NULL;
+    size_t size = 0;
+    if (gene_clocks_split_message(&split, message, sizeof message, 7, 0, 10)) return 0;
+    for (uint8_t i = 0; i <= split.last; ++i) {
+        uint8_t fragment[10];
+        const size_t bytes = gene_clocks_put_fragment(&split, i, fragment);
+        gene_clocks_take_fragment(&assembler, fragment, bytes, &whole, &size);
+    }
+    return size == sizeof message && whole[0] == 1 && whole[11] == 12;
+}
 
 /* Writes a genome of two nodes and a link, and reads it again. */
 int main(void) {
@@ -56,7 +75,7 @@ int main(void) {
     if (gene_clocks_close_general(&reader).error) return 9;
     return gene.counter == 8 && gene.robot == 7 && gene.target.index == 1 &&
                    gene_clocks_float32_of_value(values[0]) == -0.5f && values[1] == 1 &&
-                   gene_clocks_integer_of_value(values[2]) == -12
+                   gene_clocks_integer_of_value(values[2]) == -12 && fragments_come_together()
                ? 0
                : 10;
 }
