@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <cstddef>
 #include <gene_clocks/neat/genome.hpp>
 #include <span>
+#include <vector>
 
 namespace gene_clocks::neat {
 
@@ -24,27 +25,23 @@ private:
     // Neurons other than inputs are called active; outputs come first, then hidden ones. They are
     // computed four at a time: a sum grows by one source neuron after the other, so that the order
     // of its operations is the same on every processor.
-    static constexpr Eigen::Index lanes = 4;
-    using Lanes = Eigen::Array<float, lanes, 1>;
+    static constexpr std::size_t lanes = 4;
 
-    Eigen::Map<const Lanes, Eigen::Aligned16> weights_from(Eigen::Index source,
-                                                           Eigen::Index block) const {
-        return Eigen::Map<const Lanes, Eigen::Aligned16>(columns_.data() + source * padded_ +
-                                                         block);
-    }
-
-    Eigen::Index inputs_;
-    Eigen::Index outputs_;
-    Eigen::Index active_;
-    Eigen::Index padded_;  // active_, up to a multiple of `lanes`
+    std::size_t inputs_;
+    std::size_t outputs_;
+    std::size_t active_;
+    std::size_t padded_;  // active_, up to a multiple of `lanes`
     float slope_;
     // One array, so that a controller's data lie together. Columns of length padded_: first one for
     // each neuron, with its weights into all active neurons; then has_inputs (1, or 0 for a neuron
     // without enabled inputs); then the neurons' values, twice: now and next.
-    Eigen::ArrayXf columns_;
-    Eigen::Index has_inputs_;  // offsets into columns_
-    Eigen::Index values_;
-    Eigen::Index next_values_;
+    //
+    // Of the standard library, and of no other: a type whose layout or alignment depends on the
+    // compiler's flags would differ between this library and a program that uses it.
+    std::vector<float> columns_;
+    std::size_t has_inputs_;  // offsets into columns_
+    std::size_t values_;
+    std::size_t next_values_;
 };
 
 }  // namespace gene_clocks::neat
