@@ -233,7 +233,7 @@ GENE_CLOCKS_PROPERTY(FragmentProperty, MessagesOfManySendersInAnyOrderComeTogeth
     std::vector<std::pair<std::uint32_t, Bytes>> link;
     std::map<std::uint32_t, Bytes> sent;
     for (std::uint32_t sender = 1; sender <= senders; ++sender) {
-        sent[sender] = message_of(*rc::gen::inRange<std::size_t>(30, 300));
+        sent[sender] = message_of(*rc::gen::inRange<std::size_t>(60, 300));
         const auto fragments = *split_message(sent[sender], RobotId{sender}, 0,
                                               *rc::gen::inRange<std::size_t>(12, 60));
         for (const Bytes& fragment : fragments) {

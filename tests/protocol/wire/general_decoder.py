@@ -4,6 +4,8 @@ A schema is a dict as in general_vectors.json; a genome's values are integers: t
 number of a flag or an enumeration's value.
 """
 
+import functools
+
 from decoder import Bytes, Refused, crc32c
 
 TYPES = ("flag", "enumeration", "integer", "float32", "float64")
@@ -76,9 +78,9 @@ def is_admitted(attribute, value):
 
 
 class Genome:
-    def __init__(self, payload, stamp, schema, schema_bytes, genes_max):
+    def __init__(self, payload, stamp, schema, fingerprint, genes_max):
         self.source, self.stamp, self.schema = Bytes(payload), stamp, schema
-        self.fingerprint, self.genes_max = crc32c(schema_bytes), genes_max
+        self.fingerprint, self.genes_max = fingerprint, genes_max
 
     def read(self):
         source, schema = self.source, self.schema
@@ -201,7 +203,11 @@ class Genome:
         return None
 
 
+@functools.cache
+def schema_of(schema_bytes):
+    return SchemaReader(schema_bytes).read(), crc32c(schema_bytes)
+
+
 def decode(payload, stamp, schema_bytes, genes_max):
     """The genome in a payload; raises Refused."""
-    schema = SchemaReader(schema_bytes).read()
-    return Genome(payload, stamp, schema, schema_bytes, genes_max).read()
+    return Genome(payload, stamp, *schema_of(schema_bytes), genes_max).read()

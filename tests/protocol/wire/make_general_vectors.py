@@ -361,7 +361,7 @@ def refused_elsewhere():
         yield fault(f"a source with {title}", "ends", "ends by mark", (1, 0), HERE, link(mark, [1, 0]))
         yield fault(f"a target with {title}", "ends", "ends by mark", (1, 0), HERE, link([1, 0], mark))
     yield fault("a link by marks, announced in too few bytes", "truncated", "ends by mark", (1, 0),
-                link([1, 0], [1, 0])[:-1], HERE)
+                link([1, 0], [1, 0])[:-2], HERE)
     module = lambda source, target: end(source) + end(target)
     for title, first, second in (
             ("the same marks", ([1, 0], [5, 2]), ([1, 0], [5, 2])),
