@@ -12,13 +12,13 @@ PROTOCOL = programs("unit", "protocol", "innovation_number", "align", "gene_cloc
 NEAT = programs("unit", "neat", "agent", "comparison_sources", "crossover", "distance",
                 "durable_gene_clock_source", "gene_clock_source", "genome", "message_codec", "mutation",
                 "population", "random", "tabu_list", "timestamp_source")
-AUTHENTICATION = programs("unit", "authentication", "sealed_frames")
+AUTHENTICATION = programs("unit", "protocol/authentication", "sealed_frames")
 WIRE = programs("unit", "protocol", "wire")
 FRAGMENTS = programs("unit", "protocol", "fragments")
 GENERAL = programs("unit", "protocol", "general_genome")
 CODEC = programs("unit", "neat", "message_codec")
-STORAGE = programs("unit", "storage", "stored_counter", "file_store")
-POWER_CUTS = programs("explorer", "storage", "simulated_disk")
+STORAGE = programs("unit", "protocol/storage", "stored_counter", "file_store")
+POWER_CUTS = programs("explorer", "protocol/storage", "simulated_disk")
 TRACE = programs("unit", "protocol/trace", "trace")
 MUST_NOT_COMPILE = Step("must not compile", (), r"^protocol\.must_not_compile\.")
 PAPER = programs("paper", "paper", "section_2_related_work", "section_3_1_marking",

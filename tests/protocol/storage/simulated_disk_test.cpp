@@ -1,7 +1,7 @@
 // Every loss of power, at every operation, with every part of what was not synchronised lost, torn
 // or out of order; every kill; every operation that fails; either copy rotten; any number of times,
 // one after the other. Counters go from 1 to `largest`.
-#include "tests/storage/simulated_disk.hpp"
+#include "tests/protocol/storage/simulated_disk.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tests/storage/system_calls.hpp"
+#include "tests/protocol/storage/system_calls.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

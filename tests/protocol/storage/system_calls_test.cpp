@@ -1,7 +1,7 @@
 // Every system call of the store goes wrong, at every point: it fails with each error that it may
 // give, done or not, is interrupted, or is cut short. No error may be swallowed, and what failed
 // may be tried again.
-#include "tests/storage/system_calls.hpp"
+#include "tests/protocol/storage/system_calls.hpp"
 
 #include <gtest/gtest.h>
 

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/storage/system_calls.hpp"
+#include "tests/protocol/storage/system_calls.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace gene_clocks::storage {
