@@ -46,10 +46,13 @@ GeneClock make_clock(std::uint32_t robot, std::uint64_t genesis_count, GeneClock
     return GeneClock(RobotId{robot}, genesis_count, limits);
 }
 
-GeneClock restart_clock(std::uint32_t robot, std::uint64_t stored, GeneClock::Limits limits) {
-    auto clock = GeneClock::restart(RobotId{robot}, stored, limits);
-    if (!clock)
-        throw py::value_error("no clock of this robot with these limits stored that counter");
+GeneClock restart_clock(std::uint32_t robot, std::uint64_t stored, std::uint64_t genesis_count,
+                        GeneClock::Limits limits) {
+    auto clock = GeneClock::restart(RobotId{robot}, stored, genesis_count, limits);
+    if (!clock) {
+        throw py::value_error(
+            "no clock of this robot with these limits and genesis marks stored that counter");
+    }
     return *std::move(clock);
 }
 
@@ -101,13 +104,14 @@ void define_clock(py::module_& module) {
              "A fresh clock above the marks of the initial genes, 1 to genesis_count of robot 0.")
         .def_static(
             "restart",
-            [](std::uint32_t robot, std::uint64_t stored, std::uint64_t maximum,
-               std::uint64_t block, std::uint64_t window) {
-                return restart_clock(robot, stored, {maximum, block, window});
+            [](std::uint32_t robot, std::uint64_t stored, std::uint64_t genesis_count,
+               std::uint64_t maximum, std::uint64_t block, std::uint64_t window) {
+                return restart_clock(robot, stored, genesis_count, {maximum, block, window});
             },
-            "robot"_a, "stored"_a, py::kw_only(), "maximum"_a = counter_maximum, "block"_a = 0,
-            "window"_a = counter_maximum,
-            "A clock that goes on after a crash, from the last durable_needed() that was stored.")
+            "robot"_a, "stored"_a, "genesis_count"_a, py::kw_only(), "maximum"_a = counter_maximum,
+            "block"_a = 0, "window"_a = counter_maximum,
+            "A clock that goes on after a crash, from the last durable_needed() that was stored. "
+            "ValueError where that lies among the fleet's genesis marks, or beyond maximum.")
         .def("mint", py::overload_cast<>(&GeneClock::mint),
              "The mark of one new gene; None at exhaustion, and nothing changes.")
         .def("mint", &mint_many, "count"_a, "That many consecutive marks, or None: all or none.")

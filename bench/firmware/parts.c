@@ -11,10 +11,10 @@ bool clock_start(struct gene_clocks_state* state, const struct gene_clocks_limit
     return gene_clocks_start(state, limits, genesis_count);
 }
 bool clock_restart(struct gene_clocks_state* state, const struct gene_clocks_limits* limits,
-                   uint64_t stored);
+                   uint64_t genesis_count, uint64_t stored);
 bool clock_restart(struct gene_clocks_state* state, const struct gene_clocks_limits* limits,
-                   uint64_t stored) {
-    return gene_clocks_restart(state, limits, stored);
+                   uint64_t genesis_count, uint64_t stored) {
+    return gene_clocks_restart(state, limits, genesis_count, stored);
 }
 bool clock_mint(struct gene_clocks_state* state, const struct gene_clocks_limits* limits,
                 uint64_t count, uint64_t* first);

@@ -11,9 +11,11 @@
 using namespace gene_clocks;
 
 #ifdef PART_CLOCK
-std::optional<GeneClock> clock_restart(RobotId robot, std::uint64_t stored);
-std::optional<GeneClock> clock_restart(RobotId robot, std::uint64_t stored) {
-    return GeneClock::restart(robot, stored, {.block = 1000});
+std::optional<GeneClock> clock_restart(RobotId robot, std::uint64_t stored,
+                                       std::uint64_t genesis_count);
+std::optional<GeneClock> clock_restart(RobotId robot, std::uint64_t stored,
+                                       std::uint64_t genesis_count) {
+    return GeneClock::restart(robot, stored, genesis_count, {.block = 1000});
 }
 std::optional<GeneClock::Marks> clock_mint(GeneClock& clock, std::uint64_t count);
 std::optional<GeneClock::Marks> clock_mint(GeneClock& clock, std::uint64_t count) {

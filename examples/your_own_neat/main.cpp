@@ -55,7 +55,7 @@ public:
           random_(static_cast<std::uint32_t>(robot)),
           store_(storage::PosixFiles{folder}, robot) {
         if (!store_.create(genesis_count + 1)) fail("the counter cannot be stored");
-        clock_ = GeneClock::restart(robot, store_.stored(), {.block = 1000});
+        clock_ = GeneClock::restart(robot, store_.stored(), genesis_count, {.block = 1000});
         for (std::size_t i = 0; i < population_size; ++i) {
             Genome genome = initial_genome(random_);
             identify(genome);

@@ -45,10 +45,10 @@ bool mint_twice(struct gene_clocks_state* state, const struct gene_clocks_limits
     assigns *state, *before, *after;
     ensures \result ==> *before < *after; */
 bool restart_between_mints(struct gene_clocks_state* state, const struct gene_clocks_limits* limits,
-                           gene_clocks_counter stored, gene_clocks_counter* before,
-                           gene_clocks_counter* after) {
+                           gene_clocks_counter genesis_count, gene_clocks_counter stored,
+                           gene_clocks_counter* before, gene_clocks_counter* after) {
     return gene_clocks_mint(state, limits, 1, before) && stored >= state->durable &&
-           gene_clocks_restart(state, limits, stored) && gene_clocks_mint(state, limits, 1, after);
+           gene_clocks_restart(state, limits, genesis_count, stored) && gene_clocks_mint(state, limits, 1, after);
 }
 
 /* Coq: lt_strict_total. */

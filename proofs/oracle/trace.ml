@@ -5,7 +5,7 @@ open Words
 
 let rule_of = function
   | NotNextCounter -> "not-next-counter"
-  | BeyondMaximum -> "beyond-maximum"
+  | MintedBeyondMaximum -> "beyond-maximum"
   | WrongStamp -> "wrong-stamp"
   | SentBeforeStored -> "sent-before-stored"
   | GeneAboveStamp -> "gene-above-stamp"

@@ -1,10 +1,10 @@
-(** * Admission against an allowance
+(** * The admission gate
 
-    What [protocol/include/gene_clocks/admission_gate.hpp] adds to one clock. Whatever other robots,
-    the network and strangers do, this clock only notices the stamps that it hears; so the list of
-    events is any at all. *)
-From Coq Require Import NArith List.
-From GeneClocks Require Import Clock.
+    What [protocol/include/gene_clocks/admission_gate.hpp] asks before a message reaches the clock.
+    [Protocol.v] hands the gate what a robot hears, and keeps what the gate remembers; of its rule
+    the proofs use only that it refuses more than the clock does ([proofs/Invariant.v], [pass_some]). *)
+From Coq Require Import NArith List Bool.
+From GeneClocks Require Import Mark Clock.
 Import ListNotations.
 Open Scope N_scope.
 
@@ -14,54 +14,41 @@ Record policy := Policy {
   ceiling : N     (** what an allowance saturates at: the largest number that fits *)
 }.
 
-Record guarded := Guarded { clock_of : clock; allowance : N }.
+(** What a gate remembers. *)
+Record gate := Gate { law : policy; allowance : N }.
 
+Definition opened (p : policy) : gate := Gate p (initial p).
+
+(** A cycle has gone by. *)
 Definition earn (p : policy) (held : N) : N := N.min (held + per_cycle p) (ceiling p).
+Definition elapse (g : gate) : gate := Gate (law g) (earn (law g) (allowance g)).
+
+(** Why a message is refused. *)
+Inductive refusal :=
+| BeyondMaximum     (** its stamp exceeds the maximum *)
+| BeyondWindow      (** its stamp leaps further than the window *)
+| BeyondAllowance   (** its stamp leaps further than has been earned by now *)
+| NotCovered        (** a gene does not lie below the stamp *)
+| IdentityConflict. (** a gene bears the receiver's id, but the receiver never made it *)
+
+(** A stamp that a clock by itself refuses lies beyond one of two limits. *)
+Definition beyond (l : limits) (stamp : N) : refusal :=
+  if maximum l <? stamp then BeyondMaximum else BeyondWindow.
 
 (** Reception of a stamp that is also paid for. *)
-Definition accept (l : limits) (g : guarded) (stamp : N) : option guarded :=
-  match observe l (clock_of g) stamp with
-  | None => None
-  | Some c =>
-      let leap := next c - next (clock_of g) in
-      if allowance g <? leap then None else Some (Guarded c (allowance g - leap))
+Definition accept (l : limits) (c : clock) (g : gate) (stamp : N) : (clock * gate) + refusal :=
+  match observe l c stamp with
+  | None => inr (beyond l stamp)
+  | Some c' =>
+      let leap := next c' - next c in
+      if allowance g <? leap then inr BeyondAllowance
+      else inl (c', Gate (law g) (allowance g - leap))
   end.
 
-Inductive event :=
-| Makes (count : N)
-| Elapses
-| Hears (stamp : N).
+(** A mark of robot [r], whose clock stands at [n], that it has not made. *)
+Definition unmade (n r : N) (gene : mark) : bool := (maker gene =? r) && (n <=? counter gene).
 
-Definition react (l : limits) (p : policy) (g : guarded) (e : event) : guarded :=
-  match e with
-  | Makes count =>
-      match mint l (clock_of g) count with
-      | Some (_, c) => Guarded c (allowance g)
-      | None => g
-      end
-  | Elapses => Guarded (clock_of g) (earn p (allowance g))
-  | Hears stamp => match accept l g stamp with Some g' => g' | None => g end
-  end.
-
-Definition guard (p : policy) (c : clock) : guarded := Guarded c (initial p).
-
-Definition live (l : limits) (p : policy) (c : clock) (events : list event) : guarded :=
-  fold_left (react l p) events (guard p c).
-
-Fixpoint cycles (events : list event) : N :=
-  match events with
-  | [] => 0
-  | Elapses :: rest => 1 + cycles rest
-  | _ :: rest => cycles rest
-  end.
-
-Fixpoint own_genes (events : list event) : N :=
-  match events with
-  | [] => 0
-  | Makes count :: rest => count + own_genes rest
-  | _ :: rest => own_genes rest
-  end.
-
-(** What has been earned after these events, spent or not. *)
-Definition earned (p : policy) (events : list event) : N :=
-  initial p + per_cycle p * cycles events.
+(** A message at the gate of robot [r], all of whose genes lie below its stamp. *)
+Definition pass (l : limits) (r : N) (c : clock) (g : gate) (stamp : N) (genes : list mark)
+  : (clock * gate) + refusal :=
+  if existsb (unmade (next c) r) genes then inr IdentityConflict else accept l c g stamp.

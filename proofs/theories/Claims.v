@@ -4,8 +4,8 @@
     name, a witness that its hypotheses can be met where its conclusion matters, and for each
     hypothesis and each rule of the protocol a counterexample without it. *)
 From Coq Require Import NArith QArith List Sorting.Sorted.
-From GeneClocks Require Import Mark Alignment Clock Protocol Genome Recording.
-From GeneClocks Require Trace Admission Wire.
+From GeneClocks Require Import Mark Alignment Clock Admission Protocol Genome Recording.
+From GeneClocks Require Trace Wire.
 Import ListNotations.
 Open Scope N_scope.
 
@@ -66,6 +66,17 @@ Definition reserve_is_a_block_ahead : Prop :=
     /\ (next c <= durable c -> durable (reserve l c) = durable c)
     /\ (durable c < next c -> durable (reserve l c) = N.min (next c + block l) (maximum l)).
 
+(** A state is taken up where a clock can be in it, and only there; and no other. *)
+Definition restore_admits : Prop :=
+  forall l n d, (1 <= n <= d /\ d <= maximum l -> restore l n d = Some (Clock n d))
+    /\ (~ (1 <= n <= d /\ d <= maximum l) -> restore l n d = None).
+
+(** After a crash a clock goes on from what was stored; not where that lies among the genesis marks,
+    as in a store made for fewer of them, nor beyond the maximum. *)
+Definition restart_admits : Prop :=
+  forall l s, (genesis_count l < s <= maximum l -> restart l s = Some (Clock s s))
+    /\ (~ (genesis_count l < s <= maximum l) -> restart l s = None).
+
 (** ** Safety: whatever the network, crashes, forged messages and the admission window *)
 
 (** No two acts of creation share a mark. *)
@@ -84,7 +95,7 @@ Definition happened_before_irreflexive : Prop :=
 Definition never_wraps : Prop :=
   forall l commands r, valid l -> let w := after_all l commands in let s := robots w r in
     start l <= next (memory s) <= durable (memory s) /\ durable (memory s) <= maximum l
-    /\ stored s <= durable (memory s)
+    /\ start l <= stored s <= maximum l
     /\ (forall e gene, makes w e gene -> start l <= counter gene < maximum l)
     /\ (forall m, In m (network w) -> stamp m <= maximum l).
 
@@ -114,8 +125,10 @@ Definition genesis_disjoint : Prop :=
     makes (after_all l commands) e gene -> ~ In gene (genesis l).
 
 Definition refusal_changes_nothing : Prop :=
-  forall l w c, In (snd (do l w c)) [Refused; Exhausted; NotDurable; NotReserved] ->
-    fst (do l w c) = w.
+  forall l w c, match snd (do l w c) with
+    | Refused _ | NoMessage | Exhausted | NotDurable | OutOfRange | NotResumed => fst (do l w c) = w
+    | Marks _ _ | SentAs _ | Accepted | Elapsed | Persisted | Resumed => True
+    end.
 
 (** ** Durability *)
 
@@ -130,37 +143,72 @@ Definition nothing_sent_is_forgotten : Prop :=
 (** A crash anywhere, then anything: what the robot makes from then on sorts after all that it
     has sent and kept, and repeats no mark whose making survived. *)
 Definition restart_is_safe : Prop :=
-  forall l earlier r later e gene, valid l ->
-    let crashed := after_all l (earlier ++ [Crash r]) in
-    let w := after_all l (earlier ++ [Crash r] ++ later) in
+  forall l earlier r anew later e gene, valid l ->
+    let crashed := after_all l (earlier ++ [Crash r anew]) in
+    let w := after_all l (earlier ++ [Crash r anew] ++ later) in
     makes w e gene -> place e = r -> (now crashed <= time e)%nat ->
     (forall old, In old (known (robots crashed r)) -> old << gene)
     /\ (forall e', In e' (history crashed) -> place e' = r -> after e' <= counter gene)
     /\ (forall e' old, makes crashed e' old -> old <> gene).
 
+(** The clock comes back, whatever was stored, and stands where storage says. *)
+Definition crash_is_survived : Prop :=
+  forall l commands r anew, valid l -> let w := after_all l commands in
+    snd (do l w (Crash r anew)) = Resumed
+    /\ memory (robots (fst (do l w (Crash r anew))) r)
+       = Clock (stored (robots w r)) (stored (robots w r)).
+
+(** A snapshot of a clock gives back that very clock. *)
+Definition snapshot_is_exact : Prop :=
+  forall l commands r, valid l -> let c := memory (robots (after_all l commands) r) in
+    restore l (next c) (durable c) = Some c.
+
 (** ** Bounds *)
 
-Definition cost (l : limits) (c : command) : N :=
+(** How far one message can move a robot. *)
+Definition reach (l : limits) (s : robot) : N :=
+  match guard s with
+  | Some g => N.min (window l) (allowance g)
+  | None => window l
+  end.
+
+(** What a command uses up, of the counters that all robots share. *)
+Definition cost (l : limits) (w : world) (c : command) : N :=
   match c with
   | Mint _ count => count
-  | Crash _ => block l
-  | Inject _ _ => window l
-  | _ => 0
+  | Inject r _ => reach l (robots w r)
+  | Persist r value =>  (* how far this goes beyond what is needed or stored already *)
+      let s := robots w r in value - N.max (durable (memory s)) (stored s)
+  | Crash r _ => block_of (robots w r)
+  | Send _ _ | Receive _ _ | Overhear _ _ | Elapse _ => 0
   end.
-Definition budget (l : limits) (commands : list command) : N :=
-  fold_right (fun c total => cost l c + total) (start l) commands.
+Fixpoint spent (l : limits) (w : world) (commands : list command) : N :=
+  match commands with
+  | [] => 0
+  | c :: rest => cost l w c + spent l (fst (do l w c)) rest
+  end.
+Definition budget_with_storing (l : limits) (commands : list command) : N :=
+  start l + spent l (init l) commands.
 
-(** Counters stay below genesis + genes + block · crashes + window · forged messages. *)
+(** Counters stay below genesis + genes + blocks lost to crashes + what was stored beyond need +
+    the reach of forged messages. *)
 Definition counter_budget : Prop :=
   forall l commands r, valid l ->
-    next (memory (robots (after_all l commands) r)) <= budget l commands.
+    next (memory (robots (after_all l commands) r)) <= budget_with_storing l commands.
 
-(** A window no smaller than all that the fleet has used refuses nobody's message (so there is
-    no room for a forged one, which costs a whole window). *)
+(** And so do the stamps of messages; and what is stored, but for one block. *)
+Definition stored_budget : Prop :=
+  forall l commands r, valid l -> let w := after_all l commands in
+    (forall m, In m (network w) -> stamp m <= budget_with_storing l commands)
+    /\ stored (robots w r) <= budget_with_storing l commands + block_of (robots w r).
+
+(** A window no smaller than all that the fleet has used refuses nobody's message, where no gate
+    stands before it (so there is no room for a forged one, which costs a whole window). *)
 Definition honest_never_refused : Prop :=
-  forall l commands r k, valid l -> budget l commands <= start l + window l ->
-    (k < length (network (after_all l commands)))%nat ->
-    snd (do l (after_all l commands) (Receive r k)) = Accepted.
+  forall l commands r k, valid l -> budget_with_storing l commands <= start l + window l ->
+    let w := after_all l commands in
+    guard (robots w r) = None -> (k < length (network w))%nat ->
+    snd (do l w (Receive r k)) = Accepted.
 
 Definition honest (commands : list command) : Prop := forall r m, ~ In (Inject r m) commands.
 
@@ -178,21 +226,63 @@ Definition own_mark_in_past : Prop :=
     (exists r, In gene (known (robots w r))) \/ (exists m, In m (network w) /\ In gene (genes m)) ->
     ~ is_genesis l gene -> counter gene < next (memory (robots w (maker gene))).
 
+(** Checks of genes are there for forged messages: without these, the stamp alone decides. *)
+Definition stamp_alone_decides : Prop :=
+  forall l commands r k, valid l -> honest commands -> let w := after_all l commands in
+    snd (do l w (Receive r k)) = snd (do l w (Overhear r k)).
+
 (** ** The admission gate: whatever is heard, forged or not *)
+
+(** One life of robot [r] behind a gate, among whatever the others do: where its clock stood at the
+    beginning, and in which world it is now. *)
+Definition life (l : limits) (earlier : list command) (r block : N) (p : policy)
+    (later : list command) : N * world :=
+  let begins := earlier ++ [Crash r (Settings block (Some p))] in
+  (next (memory (robots (after_all l begins) r)), after_all l (begins ++ later)).
+Definition lives_on (r : N) (later : list command) : Prop := forall anew, ~ In (Crash r anew) later.
+
+Definition own_genes (r : N) (commands : list command) : N :=
+  fold_right (fun c n => match c with Mint r' count => if r' =? r then count + n else n
+                         | _ => n end) 0 commands.
+Definition cycles (r : N) (commands : list command) : N :=
+  fold_right (fun c n => match c with Elapse r' => if r' =? r then 1 + n else n | _ => n end)
+    0 commands.
+
+(** What a gate has earned since its robot started, spent or not. *)
+Definition earned (p : policy) (r : N) (later : list command) : N :=
+  initial p + per_cycle p * cycles r later.
 
 (** However many messages there are, they advance the clock by no more than time has earned. *)
 Definition allowance_bounds_clock : Prop :=
-  forall l p c events, let g := Admission.live l p c events in
-    next (Admission.clock_of g)
-    <= next c + Admission.own_genes events + Admission.earned p events.
+  forall l earlier r block p later, valid l -> lives_on r later ->
+    let (began, w) := life l earlier r block p later in
+    next (memory (robots w r)) <= began + own_genes r later + earned p r later.
 
 (** And a stamp that lies below what time has earned is never refused for it, whatever else was heard
-    before: nobody is shut out for good. *)
+    before. *)
 Definition allowance_admits_below : Prop :=
-  forall l p c events stamp, Admission.earned p events <= Admission.ceiling p ->
-    stamp <= next c + Admission.earned p events ->
-    let g := Admission.live l p c events in
-    observe l (Admission.clock_of g) stamp <> None -> Admission.accept l g stamp <> None.
+  forall l earlier r block p later m, valid l -> lives_on r later ->
+    earned p r later <= ceiling p ->
+    let (began, w) := life l earlier r block p later in
+    stamp m <= began + earned p r later ->
+    snd (do l w (Inject r m)) <> Refused BeyondAllowance.
+
+(** So among honest robots a gate refuses nobody, where it has earned what the fleet has used. *)
+Definition gate_never_refuses_honest : Prop :=
+  forall l earlier r block p later k, valid l -> lives_on r later ->
+    honest (earlier ++ later) -> earned p r later <= ceiling p ->
+    let (began, w) := life l earlier r block p later in
+    let budget := budget_with_storing l (earlier ++ [Crash r (Settings block (Some p))] ++ later) in
+    budget <= start l + window l -> budget <= began + earned p r later ->
+    (k < length (network w))%nat -> snd (do l w (Receive r k)) = Accepted.
+
+(** A gene under the receiver's own id that the receiver never made does not pass a gate: a cloned
+    identity, storage that was set back, or a forgery. *)
+Definition conflict_is_refused : Prop :=
+  forall l commands r m gene, let w := after_all l commands in guard (robots w r) <> None ->
+    (forall other, In other (genes m) -> counter other < stamp m) ->
+    In gene (genes m) -> maker gene = r -> next (memory (robots w r)) <= counter gene ->
+    snd (do l w (Inject r m)) = Refused IdentityConflict.
 
 (** ** Genomes under odNEAT's operators *)
 

@@ -3,7 +3,7 @@
     What the operators do to marks. Structure and weights are in here only as far as they decide
     which gene goes where: a gene may be anything that has a mark. *)
 From Coq Require Import NArith QArith List Bool.
-From GeneClocks Require Import Mark Alignment Clock Protocol.
+From GeneClocks Require Import Mark Alignment Clock Admission Protocol.
 Import ListNotations.
 Open Scope N_scope.
 
@@ -42,8 +42,9 @@ End Crossover.
 
 (** ** A swarm: robots that hold genomes
 
-    A genome is its list of marks. Weight mutation and cloning change no marks. Forgetting a genome needs no operation: whatever is proved of
-    all genomes that a robot has held is proved of those that it kept. *)
+    A genome is its list of marks. Weight mutation and cloning change no marks. Forgetting a genome
+    needs no operation: whatever is proved of all genomes that a robot has held is proved of those
+    that it kept. *)
 
 Definition genome := list mark.
 
@@ -54,8 +55,10 @@ Inductive operation :=
 | Recombine (r : N) (fitter weaker : nat) (keep : genome -> mark -> bool)
 | Broadcast (r : N) (sent : nat)
 | Deliver (r : N) (message : nat)
+| Listen (r : N) (message : nat)                 (** takes a message's stamp alone *)
+| Wait (r : N)                                    (** a cycle of its gate's time *)
 | Store (r value : N)
-| Fail (r : N).
+| Fail (r : N) (anew : settings).
 
 Section Operate.
 Context (l : limits).
@@ -90,10 +93,12 @@ Definition operate (s : swarm) (o : operation) : swarm :=
       | Some m, (w', Accepted) => Swarm w' (hold (held s) r (genes m))
       | _, _ => s
       end
+  | Listen r k => Swarm (fst (do (Overhear r k))) (held s)
+  | Wait r => Swarm (fst (do (Elapse r))) (held s)
   | Store r value => Swarm (fst (do (Persist r value))) (held s)
-  | Fail r =>
+  | Fail r anew =>
       let survives (g : genome) := forallb (retains gene_clocks (stored (robots w r))) g in
-      Swarm (fst (do (Crash r)))
+      Swarm (fst (do (Crash r anew)))
             (fun r' => if r' =? r then filter survives (held s r) else held s r')
   end.
 

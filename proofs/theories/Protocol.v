@@ -7,18 +7,24 @@
     The network only ever gains messages, and a command may deliver any of them to any robot at
     any time: loss, duplication, delay and reordering are all there. [Inject] is a forged message.
     Storage is asynchronous: memory runs ahead of it, each write completes in its own time
-    ([Persist]), and a [Crash] may strike anywhere between. *)
+    ([Persist]), and a [Crash] may strike anywhere between. What is written may also lie beyond
+    need, as where a robot keeps other numbers by the same stored counter. *)
 From Coq Require Import NArith List Bool.
-From GeneClocks Require Import Mark Clock.
+From GeneClocks Require Import Mark Clock Admission.
 Import ListNotations.
 Open Scope N_scope.
 
 Record message := Message { stamp : N; genes : list mark }.
 
+(** What each robot may set as it likes, anew in each life. *)
+Record settings := Settings { own_block : N; own_policy : option policy }.
+
 Record robot := Robot {
   memory : clock;
-  stored : N;         (** the counter on stable storage *)
-  known : list mark   (** every mark of every genome that it holds, and maybe more *)
+  stored : N;           (** the counter on stable storage *)
+  known : list mark;    (** every mark of every genome that it holds, and maybe more *)
+  block_of : N;         (** how far ahead of need it reserves *)
+  guard : option gate   (** what stands before its clock, if anything does *)
 }.
 
 (** ** The rules of the protocol
@@ -28,8 +34,9 @@ Record rules := Rules {
   stamp_of : clock -> N;
   merge : limits -> clock -> N -> option clock;
   credible : message -> bool;
+  gated : limits -> N -> clock -> gate -> N -> list mark -> (clock * gate) + refusal;
   may_send : robot -> bool;
-  resume : limits -> N -> clock;
+  resume : limits -> N -> option clock;
   retains : N -> mark -> bool
 }.
 
@@ -40,10 +47,13 @@ Definition gene_clocks : rules := {|
   merge := observe;
   (** A message whose genes are not all below its stamp is dropped whole. *)
   credible m := forallb (fun gene => counter gene <? stamp m) (genes m);
+  (** A gate, where there is one, refuses what its allowance does not pay for, and marks of the
+      robot's own that it never made. *)
+  gated := pass;
   (** Nothing leaves a robot before what it needs is on stable storage. *)
   may_send r := durable (memory r) <=? stored r;
   (** After a crash the clock goes on from what was stored … *)
-  resume _ stored := restart stored;
+  resume := restart;
   (** … and a stored genome with a mark at or above that is dropped. *)
   retains stored gene := counter gene <? stored
 |}.
@@ -102,16 +112,19 @@ Inductive command :=
 | Mint (r count : N)
 | Send (r : N) (selection : list mark)  (** of what it knows *)
 | Receive (r : N) (message : nat)
+| Overhear (r : N) (message : nat)      (** takes the stamp alone, without the genes *)
 | Inject (r : N) (m : message)
-| Persist (r value : N)                 (** the write of a reserved value completes *)
-| Crash (r : N).                        (** memory is lost; the robot restarts *)
+| Elapse (r : N)                        (** a cycle of its gate's time goes by *)
+| Persist (r value : N)                 (** the write of any value, needed or not, completes *)
+| Crash (r : N) (s : settings).         (** memory is lost; the robot restarts, set like this *)
 
 Inductive answer :=
 | Marks (first count : N) | Exhausted
 | SentAs (message : nat) | NotDurable
-| Accepted | Refused
-| Persisted | NotReserved
-| Resumed.
+| Accepted | Refused (why : refusal) | NoMessage
+| Elapsed
+| Persisted | OutOfRange
+| Resumed | NotResumed.
 
 Section Step.
 Context (the : rules) (l : limits).
@@ -119,7 +132,12 @@ Context (the : rules) (l : limits).
 Definition genesis : list mark :=
   map (fun i => Mark (N.of_nat i) 0) (seq 1 (N.to_nat (genesis_count l))).
 
-Definition fresh_robot : robot := Robot (restart (start l)) (start l) genesis.
+Definition fresh_robot : robot :=
+  Robot (Clock (start l) (start l)) (start l) genesis (block l) None.
+
+(** The limits of the fleet, but for the block. *)
+Definition own_limits (s : robot) : limits :=
+  Limits (maximum l) (block_of s) (window l) (genesis_count l).
 
 Definition update (robots : N -> robot) (r : N) (new : robot) : N -> robot :=
   fun r' => if r' =? r then new else robots r'.
@@ -142,13 +160,29 @@ Definition minted_marks (r first : N) (count : nat) : list mark :=
   map (fun i => Mark (first + N.of_nat i) r) (seq 0 count).
 
 (** Merging the stamp and learning the genes is one atomic step. *)
-Definition learn (s : robot) (m : message) : option robot :=
+Definition learn (r : N) (s : robot) (m : message) : robot + refusal :=
+  let learnt c g := Robot c (stored s) (known s ++ genes m) (block_of s) g in
   if credible the m then
-    match merge the l (memory s) (stamp m) with
-    | Some c => Some (Robot c (stored s) (known s ++ genes m))
-    | None => None
+    match guard s with
+    | None =>
+        match merge the (own_limits s) (memory s) (stamp m) with
+        | Some c => inl (learnt c None)
+        | None => inr (beyond l (stamp m))
+        end
+    | Some g =>
+        match gated the (own_limits s) r (memory s) g (stamp m) (genes m) with
+        | inl (c, g') => inl (learnt c (Some g'))
+        | inr why => inr why
+        end
     end
-  else None.
+  else inr NotCovered.
+
+(** A message reaches a robot, by [how]. *)
+Definition hear (w : world) (r : N) (m : message) (how : action) : world * answer :=
+  match learn r (robots w r) m with
+  | inl new => (commit w r new [] [event_now w r how new], Accepted)
+  | inr why => (w, Refused why)
+  end.
 
 Definition knows (s : robot) (gene : mark) : bool := existsb (mark_eqb gene) (known s).
 
@@ -160,11 +194,11 @@ Definition step (w : world) (c : command) : world * answer :=
   match c with
   | Mint r count =>
       let s := robots w r in
-      match mint l (memory s) count with
+      match mint (own_limits s) (memory s) count with
       | Some (first, c) =>
           let n := N.to_nat count in
-          (commit w r (Robot c (stored s) (known s ++ minted_marks r first n)) []
-                  (minted_events (now w) r first n),
+          (commit w r (Robot c (stored s) (known s ++ minted_marks r first n) (block_of s) (guard s))
+                  [] (minted_events (now w) r first n),
            Marks first count)
       | None => (w, Exhausted)
       end
@@ -177,32 +211,39 @@ Definition step (w : world) (c : command) : world * answer :=
       else (w, NotDurable)
   | Receive r k =>
       match nth_error (network w) k with
-      | Some m =>
-          match learn (robots w r) m with
-          | Some new => (commit w r new [] [event_now w r (Received k (genes m)) new], Accepted)
-          | None => (w, Refused)
-          end
-      | None => (w, Refused)
+      | Some m => hear w r m (Received k (genes m))
+      | None => (w, NoMessage)
       end
-  | Inject r m =>
-      match learn (robots w r) m with
-      | Some new => (commit w r new [] [event_now w r (Injected (genes m)) new], Accepted)
-      | None => (w, Refused)
+  | Overhear r k =>
+      match nth_error (network w) k with
+      | Some m => hear w r (Message (stamp m) []) (Received k [])
+      | None => (w, NoMessage)
       end
+  | Inject r m => hear w r m (Injected (genes m))
+  | Elapse r =>
+      let s := robots w r in
+      (commit w r (Robot (memory s) (stored s) (known s) (block_of s) (option_map elapse (guard s)))
+              [] [],
+       Elapsed)
   | Persist r value =>
       let s := robots w r in
-      if value <=? durable (memory s) then
-        (commit w r (Robot (memory s) (N.max (stored s) value) (known s)) [] [], Persisted)
-      else (w, NotReserved)
-  | Crash r =>
+      if value <=? maximum l then
+        (commit w r (Robot (memory s) (N.max (stored s) value) (known s) (block_of s) (guard s)) [] [],
+         Persisted)
+      else (w, OutOfRange)
+  | Crash r anew =>
       let s := robots w r in
-      let c := resume the l (stored s) in
-      let left := filter (retains the (stored s)) (known s) in
-      (World (S (now w)) (update (robots w) r (Robot c (stored s) left)) (network w)
-             (filter (fun e => negb (undone w r e)) (history w)
-                ++ [Event (now w) r (Restarted left) (next c) (next c)])
-             (lost w ++ filter (undone w r) (history w)),
-       Resumed)
+      match resume the l (stored s) with
+      | Some c =>
+          let left := filter (retains the (stored s)) (known s) in
+          let new := Robot c (stored s) left (own_block anew) (option_map opened (own_policy anew)) in
+          (World (S (now w)) (update (robots w) r new) (network w)
+                 (filter (fun e => negb (undone w r e)) (history w)
+                    ++ [Event (now w) r (Restarted left) (next c) (next c)])
+                 (lost w ++ filter (undone w r) (history w)),
+           Resumed)
+      | None => (w, NotResumed)  (* never: [Claims.crash_is_survived] *)
+      end
   end.
 
 Definition init : world := World 0 (fun _ => fresh_robot) [] [] [].

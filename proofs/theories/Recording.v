@@ -14,9 +14,10 @@ Definition entries_of (l : limits) (w : world) (c : command) : list Trace.entry 
   | Send r selection, (w', SentAs k) =>
       let genes := filter (knows (robots w r)) selection in
       [Trace.Sends r (next (memory (robots w r))) (newest genes)]
-  | Receive r k, (w', Accepted) => [Trace.Receives r (N.of_nat k) (next (memory (robots w' r)))]
+  | Receive r k, (w', Accepted) | Overhear r k, (w', Accepted) =>
+      [Trace.Receives r (N.of_nat k) (next (memory (robots w' r)))]
   | Persist r _, (w', Persisted) => [Trace.Stores r (stored (robots w' r))]
-  | Crash r, (w', _) => [Trace.Restarts r (next (memory (robots w' r)))]
+  | Crash r _, (w', Resumed) => [Trace.Restarts r (next (memory (robots w' r)))]
   | _, _ => []
   end.
 

@@ -26,7 +26,7 @@ Definition robot_of (e : entry) : N :=
 
 Inductive violation :=
 | NotNextCounter      (** a gene took a counter that is not its robot's next *)
-| BeyondMaximum       (** counters beyond the maximum were taken *)
+| MintedBeyondMaximum       (** counters beyond the maximum were taken *)
 | WrongStamp          (** the stamp is not the sender's next counter *)
 | SentBeforeStored    (** a message left while the counter was ahead of storage *)
 | GeneAboveStamp      (** a message holds a gene that is not below its stamp *)
@@ -63,7 +63,7 @@ Definition sit (c : checker) (r : N) (s : seat) : checker :=
   Checker (PositiveMap.add (key r) s (seats c)) (stamps c) (sent c).
 
 (** The proved clock's own arithmetic; what it would reserve is of no concern here. *)
-Definition memory_of (s : seat) : clock := restart (next_of s).
+Definition memory_of (s : seat) : clock := Clock (next_of s) (next_of s).
 
 Definition check_entry (c : checker) (e : entry) : verdict checker :=
   let s := seat_of c (robot_of e) in
@@ -72,7 +72,7 @@ Definition check_entry (c : checker) (e : entry) : verdict checker :=
       require (first =? next_of s) NotNextCounter
       match mint l (memory_of s) count with
       | Some (_, clock) => inl (sit c r (Seat (next clock) (stored_of s)))
-      | None => inr BeyondMaximum
+      | None => inr MintedBeyondMaximum
       end
   | Sends r stamp newest =>
       require (stamp =? next_of s) WrongStamp (

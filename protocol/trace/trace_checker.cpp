@@ -74,7 +74,7 @@ std::optional<Violation> TraceChecker::check(Seat& seat, const Stores& entry) {
 std::optional<Violation> TraceChecker::check(Seat& seat, const Restarts& entry) {
     if (entry.next.value != seat.stored) return Violation::wrong_restart;
     // What was stored lies between the first counter and the maximum, so there is a clock.
-    seat.clock = GeneClock::restart(entry.robot, seat.stored, limits_).value();
+    seat.clock = GeneClock::restart(entry.robot, seat.stored, genesis_count_, limits_).value();
     return std::nullopt;
 }
 

@@ -35,7 +35,7 @@ struct GeneClocks {
     }
     /// After a crash the clock goes on from what was stored …
     static std::optional<Clock> resume(RobotId robot, Counter stored, Clock::Limits limits) {
-        return Clock::restart(robot, stored, limits);
+        return Clock::restart(robot, stored, 0, limits);
     }
     /// … and a stored gene at or above that is dropped.
     static bool retains(Mark gene, Counter stored) { return gene.counter < stored; }

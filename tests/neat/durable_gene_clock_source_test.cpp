@@ -58,7 +58,7 @@ protected:
 };
 
 TEST_F(DurableGeneClockSourceTest, HoldsWhatStorageDoesNotCover) {
-    const auto source = Source::restart(robot, storage_);
+    const auto source = Source::restart(robot, storage_, genesis_marks);
     ASSERT_TRUE(source);
     EXPECT_EQ(source->stamp_to_send(source->first_birth()), Stamp{genesis_marks + 1});
     EXPECT_EQ(storage_.writes, 1) << "no gene was made yet, but the first genome";
@@ -74,7 +74,7 @@ TEST_F(DurableGeneClockSourceTest, HoldsWhatStorageDoesNotCover) {
 }
 
 TEST_F(DurableGeneClockSourceTest, MarksTheThreeGenesOfASplitInTheirOrder) {
-    const auto source = Source::restart(robot, storage_);
+    const auto source = Source::restart(robot, storage_, genesis_marks);
     const auto marks = source->mark_split(genome_, 0, 0.0);
     ASSERT_TRUE(marks);
     EXPECT_EQ(marks->neuron, (InnovationNumber{genesis_marks + 1, robot}));
@@ -84,7 +84,7 @@ TEST_F(DurableGeneClockSourceTest, MarksTheThreeGenesOfASplitInTheirOrder) {
 }
 
 TEST_F(DurableGeneClockSourceTest, WritesOncePerBlock) {
-    const auto source = Source::restart(robot, storage_, {.block = 99});
+    const auto source = Source::restart(robot, storage_, genesis_marks, {.block = 99});
     for (int i = 0; i < 1000; ++i) {
         mint(*source);
         ASSERT_TRUE(source->stamp_to_send(source->first_birth()));
@@ -95,19 +95,19 @@ TEST_F(DurableGeneClockSourceTest, WritesOncePerBlock) {
 TEST_F(DurableGeneClockSourceTest, GoesOnAboveWhatItSentBefore) {
     Stamp sent;
     {
-        const auto source = Source::restart(robot, storage_, {.block = 10});
+        const auto source = Source::restart(robot, storage_, genesis_marks, {.block = 10});
         mint(*source);
         ASSERT_TRUE(source->observe(Stamp{100}));
         mint(*source);
         sent = source->stamp_to_send(source->first_birth()).value();
         mint(*source);  // lost with the crash, and never sent
     }
-    const auto source = Source::restart(robot, storage_);
+    const auto source = Source::restart(robot, storage_, genesis_marks);
     EXPECT_GE(mint(*source).counter, sent.value);
 }
 
 TEST_F(DurableGeneClockSourceTest, HoldsAGenomeUntilItsNumberIsStored) {
-    const auto source = Source::restart(robot, storage_, {.block = 9});
+    const auto source = Source::restart(robot, storage_, genesis_marks, {.block = 9});
     const std::uint32_t first = source->first_birth();
     EXPECT_EQ(first, genesis_marks + 1);
     storage_.works = false;
@@ -122,17 +122,48 @@ TEST_F(DurableGeneClockSourceTest, HoldsAGenomeUntilItsNumberIsStored) {
 }
 
 TEST_F(DurableGeneClockSourceTest, HoldsAGenomeThatNoCounterIsLeftFor) {
-    const auto source = Source::restart(robot, storage_, {.maximum = genesis_marks + 3});
+    const auto source =
+        Source::restart(robot, storage_, genesis_marks, {.maximum = genesis_marks + 3});
     const std::uint32_t first = source->first_birth();
     EXPECT_TRUE(source->stamp_to_send(first + 1));
     EXPECT_EQ(source->stamp_to_send(first + 2), std::nullopt);
     EXPECT_EQ(source->storage_status().error, StorageError::bad_counter);
-    EXPECT_TRUE(Source::restart(robot, storage_, {.maximum = genesis_marks + 3}));
+    EXPECT_TRUE(Source::restart(robot, storage_, genesis_marks, {.maximum = genesis_marks + 3}));
+}
+
+// docs/durability-and-hostile-peers.md has these figures.
+TEST_F(DurableGeneClockSourceTest, CostsTheFleetACounterForEachGenomeAtMost) {
+    constexpr std::uint64_t genomes = 5000;
+    constexpr std::uint64_t block = 10;
+    {
+        const auto source = Source::restart(robot, storage_, genesis_marks, {.block = block});
+        for (std::uint32_t i = 0; i < genomes; ++i) {
+            ASSERT_TRUE(source->stamp_to_send(source->first_birth() + i));
+        }
+        EXPECT_EQ(source->stamp(), Stamp{genesis_marks + 1}) << "no gene was made";
+    }
+    const auto back = Source::restart(robot, storage_, genesis_marks, {.block = block});
+    const Stamp stamp = back->stamp_to_send(back->first_birth()).value();
+    EXPECT_GT(stamp.value, genesis_marks + genomes);
+    EXPECT_LE(stamp.value, genesis_marks + 1 + genomes + 2 * block);
+
+    const auto cycles_refused = [&](AdmissionGate::Policy policy) {
+        GeneClock newcomer{RobotId{9}, genesis_marks};
+        AdmissionGate gate{policy};
+        int cycles = 0;
+        for (; gate.admit(newcomer, stamp, std::vector<InnovationNumber>{}) != Admission::admitted;
+             ++cycles) {
+            gate.elapse();
+        }
+        return cycles;
+    };
+    EXPECT_EQ(cycles_refused({.allowance = 1000 + genomes + 2 * block, .per_cycle = 4}), 0);
+    EXPECT_GE(cycles_refused({.allowance = 1000, .per_cycle = 4}), 1000) << "it counts genes alone";
 }
 
 TEST_F(DurableGeneClockSourceTest, NumbersGenomesModulo2To32) {
     storage_ = SwitchedStorage{(std::uint64_t{5} << 32) - 1};
-    const auto source = Source::restart(robot, storage_);
+    const auto source = Source::restart(robot, storage_, genesis_marks);
     EXPECT_EQ(source->first_birth(), UINT32_MAX);
     EXPECT_TRUE(source->stamp_to_send(2));  // the fourth of this life
     EXPECT_EQ(storage_.stored(), (std::uint64_t{5} << 32) + 3);
@@ -140,10 +171,16 @@ TEST_F(DurableGeneClockSourceTest, NumbersGenomesModulo2To32) {
 
 TEST_F(DurableGeneClockSourceTest, DoesNotStartFromWhatNoClockStored) {
     SwitchedStorage closed{0};
-    EXPECT_EQ(Source::restart(robot, closed), nullptr);
+    EXPECT_EQ(Source::restart(robot, closed, genesis_marks), nullptr);
     SwitchedStorage high{101};
-    EXPECT_EQ(Source::restart(robot, high, {.maximum = 100}), nullptr);
-    EXPECT_EQ(Source::restart(genesis_robot, storage_), nullptr);
+    EXPECT_EQ(Source::restart(robot, high, genesis_marks, {.maximum = 100}), nullptr);
+    EXPECT_EQ(Source::restart(genesis_robot, storage_, genesis_marks), nullptr);
+}
+
+TEST_F(DurableGeneClockSourceTest, DoesNotStartAmongTheGenesisMarks) {
+    SwitchedStorage for_fewer{genesis_marks};
+    EXPECT_EQ(Source::restart(robot, for_fewer, genesis_marks), nullptr);
+    EXPECT_TRUE(Source::restart(robot, storage_, genesis_marks));
 }
 
 // ---- In an agent ----
@@ -151,7 +188,7 @@ TEST_F(DurableGeneClockSourceTest, DoesNotStartFromWhatNoClockStored) {
 class DurableAgentTest : public DurableGeneClockSourceTest {
 protected:
     Agent agent(AdmissionGate::Policy admission = {}) {
-        auto source = Source::restart(robot, storage_, {}, admission);
+        auto source = Source::restart(robot, storage_, genesis_marks, {}, admission);
         source_ = source.get();
         return Agent(robot, settings_, make_initial_topology(2, 1), std::move(source),
                      RandomStream(1, 1));

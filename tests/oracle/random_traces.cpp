@@ -94,7 +94,7 @@ private:
                 }
                 break;
             default:
-                robot.clock = GeneClock::restart(id, robot.stored, limits_).value();
+                robot.clock = GeneClock::restart(id, robot.stored, genesis_, limits_).value();
                 writer_.restarted(id, robot.clock.stamp());
         }
     }

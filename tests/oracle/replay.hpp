@@ -6,9 +6,11 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <gene_clocks/admission_gate.hpp>
 #include <gene_clocks/align.hpp>
 #include <gene_clocks/gene_clock.hpp>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <ranges>
@@ -28,6 +30,7 @@ template <std::unsigned_integral Counter>
 class Fleet {
 public:
     using Clock = BasicGeneClock<Counter>;
+    using Gate = BasicAdmissionGate<Counter>;
     using Mark = typename Clock::Mark;
     using Words = std::span<const std::string_view>;
 
@@ -56,8 +59,17 @@ public:
     }
 
     std::string receive(RobotId id, std::size_t message) {
-        if (message >= network_.size()) return "refused";
+        if (message >= network_.size()) return "no message";
         return learn(id, network_[message].stamp, network_[message].genes);
+    }
+
+    /// Takes the stamp alone.
+    std::string overhear(RobotId id, std::size_t message) {
+        if (message >= network_.size()) return "no message";
+        const auto stamp = network_[message].stamp;
+        Robot& robot = find(id);
+        if (robot.gate) return outcome(robot.gate->admit(robot.clock, stamp, std::vector<Mark>{}));
+        return robot.clock.observe(stamp) ? "accepted" : "refused";
     }
 
     std::string inject(RobotId id, Counter stamp, const std::vector<Mark>& genes) {
@@ -66,18 +78,34 @@ public:
 
     std::string persist(RobotId id, Counter value) {
         Robot& robot = find(id);
-        if (value > robot.clock.durable_needed()) return "not reserved";
+        if (value > limits_.maximum) return "out of range";
         robot.stored = std::max(robot.stored, value);
         return "persisted";
     }
 
     std::string flush(RobotId id) { return persist(id, find(id).clock.durable_needed()); }
 
-    std::string crash(RobotId id) {
+    std::string elapse(RobotId id) {
+        if (Robot& robot = find(id); robot.gate) robot.gate->elapse();
+        return "elapsed";
+    }
+
+    std::string crash(RobotId id, Counter block, std::optional<typename Gate::Policy> policy) {
         Robot& robot = find(id);
-        robot.clock = Clock::restart(id, robot.stored, limits_).value();
+        auto clock = Clock::restart(id, robot.stored, genesis_count_,
+                                    {limits_.maximum, block, limits_.window});
+        if (!clock) return "not resumed";
+        robot.clock = *std::move(clock);
+        robot.gate.reset();
+        if (policy) robot.gate.emplace(*policy);
         std::erase_if(robot.known, [&](Mark gene) { return gene.counter >= robot.stored; });
         return "resumed";
+    }
+
+    std::string snapshot(Counter next, Counter durable) const {
+        const auto clock = Clock::from_state(RobotId{1}, {next, durable}, limits_);
+        if (!clock) return "no clock";
+        return fmt::format("clock {} {}", clock->state().next, clock->state().durable);
     }
 
     std::string known(RobotId id) { return "known" + list(find(id).known); }
@@ -86,7 +114,8 @@ public:
     std::string state(RobotId id) {
         const Robot& robot = find(id);
         const auto [next, durable] = robot.clock.state();
-        return fmt::format(" | {} {} {} {}", next, durable, robot.stored, robot.known.size());
+        return fmt::format(" | {} {} {} {} {}", next, durable, robot.stored, robot.known.size(),
+                           robot.gate ? fmt::to_string(robot.gate->allowance()) : "-");
     }
 
     static std::string list(const std::vector<Mark>& marks) {
@@ -102,6 +131,7 @@ public:
 private:
     struct Robot {
         Clock clock;
+        std::optional<Gate> gate;
         Counter stored;  ///< on stable storage
         std::vector<Mark> known;
     };
@@ -115,16 +145,37 @@ private:
         if (place != robots_.end()) return place->second;
         Clock clock{id, genesis_count_, limits_};
         const Counter stored = clock.durable_needed();
-        Robot robot{std::move(clock), stored, {}};
+        Robot robot{std::move(clock), std::nullopt, stored, {}};
         for (Counter i = 1; i <= genesis_count_; ++i) robot.known.push_back({i, genesis_robot});
         return robots_.emplace(id, std::move(robot)).first->second;
     }
 
     std::string learn(RobotId id, typename Clock::StampType stamp, const std::vector<Mark>& genes) {
         Robot& robot = find(id);
-        if (!robot.clock.observe(stamp, genes)) return "refused";
+        const std::string answer =
+            robot.gate ? outcome(robot.gate->admit(robot.clock, stamp, genes))
+                       : std::string{robot.clock.observe(stamp, genes) ? "accepted" : "refused"};
+        if (answer != "accepted") return answer;
         robot.known.insert(robot.known.end(), genes.begin(), genes.end());
-        return "accepted";
+        return answer;
+    }
+
+    static std::string outcome(Admission admission) {
+        switch (admission) {
+            case Admission::admitted:
+                return "accepted";
+            case Admission::beyond_maximum:
+                return "refused: beyond maximum";
+            case Admission::beyond_window:
+                return "refused: beyond window";
+            case Admission::beyond_allowance:
+                return "refused: beyond allowance";
+            case Admission::gene_not_covered:
+                return "refused: gene not covered";
+            case Admission::identity_conflict:
+                return "refused: identity conflict";
+        }
+        throw std::logic_error("an outcome that the model does not have");
     }
 
     typename Clock::Limits limits_;
@@ -151,6 +202,9 @@ public:
             return "limits";
         }
         if (verb == "align") return align_genomes(words.subspan(1));
+        if (verb == "snapshot" && words.size() == 3) {
+            return fleet_.value().snapshot(number<Counter>(words[1]), number<Counter>(words[2]));
+        }
         if (words.size() < 2) throw std::invalid_argument("no such command");
         const RobotId id{number<std::uint32_t>(words[1])};
         if (verb == "known") return fleet_.value().known(id);
@@ -164,12 +218,24 @@ private:
         if (verb == "mint") return fleet.mint(id, number<Counter>(rest[0]));
         if (verb == "send") return fleet.send(id, marks(rest));
         if (verb == "receive") return fleet.receive(id, number<std::size_t>(rest[0]));
+        if (verb == "overhear") return fleet.overhear(id, number<std::size_t>(rest[0]));
+        if (verb == "elapse") return fleet.elapse(id);
         if (verb == "inject") {
             return fleet.inject(id, number<Counter>(rest[0]), marks(rest.subspan(1)));
         }
         if (verb == "persist") return fleet.persist(id, number<Counter>(rest[0]));
         if (verb == "flush") return fleet.flush(id);
-        if (verb == "crash") return fleet.crash(id);
+        if (verb == "crash" && rest.size() == 1) {
+            return fleet.crash(id, number<Counter>(rest[0]), std::nullopt);
+        }
+        if (verb == "crash" && rest.size() == 4) {
+            if (number<Counter>(rest[3]) != std::numeric_limits<Counter>::max()) {
+                throw std::invalid_argument("the shipped gate saturates at the largest counter");
+            }
+            return fleet.crash(id, number<Counter>(rest[0]),
+                               typename Fleet<Counter>::Gate::Policy{number<Counter>(rest[1]),
+                                                                     number<Counter>(rest[2])});
+        }
         throw std::invalid_argument("no such command");
     }
 

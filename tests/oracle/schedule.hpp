@@ -16,8 +16,8 @@
 namespace gene_clocks::test {
 
 /// Draws commands in the oracle's language (proofs/oracle/protocol.ml): robots that mint, send,
-/// hear what was sent once, twice, late or never, store, crash at every point, and are sent
-/// forgeries.
+/// hear what was sent once, twice, late or never, with its genes or without, store what is needed
+/// or more, crash at every point, come back with and without a gate, and are sent forgeries.
 ///
 /// `Draws` has below(bound), a number in [0, bound), and word(), any 64 bits.
 template <class Draws>
@@ -44,23 +44,29 @@ public:
         const std::uint32_t robot = pick(robots_);
         const std::uint64_t kind = below(100);
         // Draws are named one by one: the order of arguments' evaluation differs among compilers.
-        if (kind < 24) {
+        if (kind < 22) {
             const std::uint64_t count =
                 chance(90) ? pick({0, 1, 1, 1, 2, 3, 3, 5}) : pick({maximum_, largest_});
             return fmt::format("mint {} {}", robot, count);
         }
-        if (kind < 36) return fmt::format("flush {}", robot);
-        if (kind < 54) {
+        if (kind < 32) return fmt::format("flush {}", robot);
+        if (kind < 47) {
             ++messages_;  // or fewer, where the robot is not allowed to
             return fmt::format("send {}{}", robot, words(genes(5)));
         }
-        if (kind < 76) return fmt::format("receive {} {}", robot, below(messages_ + 1));
-        if (kind < 84) {
+        if (kind < 64) return fmt::format("receive {} {}", robot, below(messages_ + 1));
+        if (kind < 68) return fmt::format("overhear {} {}", robot, below(messages_ + 1));
+        if (kind < 78) {
             const std::uint64_t stamp = counter();
             return fmt::format("inject {} {}{}", robot, stamp, words(genes(2)));
         }
-        if (kind < 90) return fmt::format("persist {} {}", robot, counter());
-        if (kind < 96) return fmt::format("crash {}", robot);
+        if (kind < 83) return fmt::format("persist {} {}", robot, counter());
+        if (kind < 88) return fmt::format("elapse {}", robot);
+        if (kind < 94) return crash(robot);
+        if (kind < 96) {
+            const std::uint64_t next = counter();
+            return fmt::format("snapshot {} {}", next, counter());
+        }
         const std::string first = words(genome());
         return fmt::format("align{} /{}", first, words(genome()));
     }
@@ -76,6 +82,15 @@ public:
 
 private:
     using Mark = std::pair<std::uint64_t, std::uint32_t>;  // counter, robot
+
+    /// A block, and in most lives a gate, of the robot's own.
+    std::string crash(std::uint32_t robot) {
+        const std::uint64_t block = std::min(largest_, pick({0, 1, 3, 16, maximum_, largest_}));
+        if (chance(30)) return fmt::format("crash {} {}", robot, block);
+        const std::uint64_t allowance = std::min(largest_, pick({0, 1, 3, 10, largest_}));
+        const std::uint64_t per_cycle = std::min(largest_, pick({0, 1, 4, largest_}));
+        return fmt::format("crash {} {} {} {} {}", robot, block, allowance, per_cycle, largest_);
+    }
 
     /// Where clocks are soon, around the maximum, or anywhere.
     std::uint64_t counter() {

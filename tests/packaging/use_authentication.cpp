@@ -12,7 +12,7 @@ bool robots_talk(const authentication::Key& key, std::span<const std::uint8_t> f
                  std::uint64_t stored) {
     // Numbers of frames come from a clock of their own, which is stored and restarted as that of
     // genes is, in a folder of its own.
-    authentication::Sealer sealer{key, *GeneClock::restart(RobotId{1}, stored, {.block = 1000})};
+    authentication::Sealer sealer{key, *GeneClock::restart(RobotId{1}, stored, 0, {.block = 1000})};
     const auto sealed = sealer.seal(frame);
     if (!sealed || !store(sealer.durable_needed())) return false;  // before it leaves
 

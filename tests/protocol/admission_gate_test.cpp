@@ -141,7 +141,7 @@ TEST(AdmissionGate, NoticesStorageThatWasSetBack) {
     const auto lost = clock.mint(5).value();
     const Genes genome_of_another{{22, genesis_robot}, lost[4], {28, RobotId{9}}};
 
-    auto restored = GeneClock::restart(robot, old_image).value();
+    auto restored = GeneClock::restart(robot, old_image, 22).value();
     AdmissionGate gate;
     EXPECT_EQ(gate.admit(restored, Stamp{29}, genome_of_another), Admission::identity_conflict);
     EXPECT_EQ(gate.conflicting_mark(), lost[4]);

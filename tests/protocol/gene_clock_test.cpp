@@ -167,12 +167,23 @@ TEST(GeneClock, ReservesNothingBeyondTheMaximum) {
 }
 
 TEST(GeneClock, RestartsFromWhatWasStored) {
-    const auto clock = GeneClock::restart(robot, 12);
+    const auto clock = GeneClock::restart(robot, 12, 0);
     ASSERT_TRUE(clock);
     EXPECT_EQ(clock->state(), (GeneClock::State{12, 12}));
-    EXPECT_FALSE(GeneClock::restart(robot, 0));
-    EXPECT_FALSE(GeneClock::restart(robot, 101, {.maximum = 100}));
-    EXPECT_FALSE(GeneClock::restart(genesis_robot, 12));
+    EXPECT_FALSE(GeneClock::restart(robot, 0, 0));
+    EXPECT_FALSE(GeneClock::restart(robot, 101, 0, {.maximum = 100}));
+    EXPECT_FALSE(GeneClock::restart(genesis_robot, 12, 0));
+}
+
+// A store that was made for one genesis mark, in a fleet that has twenty-two.
+TEST(GeneClock, DoesNotRestartAmongTheGenesisMarks) {
+    EXPECT_TRUE(GeneClock::restart(robot, 2, 1));
+    EXPECT_FALSE(GeneClock::restart(robot, 2, 22));
+    EXPECT_FALSE(GeneClock::restart(robot, 22, 22));
+    const auto clock = GeneClock::restart(robot, 23, 22);
+    ASSERT_TRUE(clock);
+    EXPECT_EQ(clock->stamp(), Stamp{23});
+    EXPECT_FALSE(GeneClock::restart(robot, 101, 22, {.maximum = 100}));
 }
 
 // A copy that nobody meant would make every mark of the original again.
@@ -329,7 +340,7 @@ GENE_CLOCKS_PROPERTY(GeneClockProperty, WhatIsMintedLiesAboveAllThatWasObserved,
 GENE_CLOCKS_PROPERTY(GeneClockProperty, ARestartNeverIssuesAMarkAgain, ()) {
     auto any = *clocks();
     const auto marks = any.clock.mint(*rc::gen::inRange<std::uint64_t>(0, 4));
-    auto flushed = GeneClock::restart(robot, any.clock.durable_needed(), any.limits);
+    auto flushed = GeneClock::restart(robot, any.clock.durable_needed(), 0, any.limits);
     RC_ASSERT(flushed.has_value());
     RC_ASSERT(flushed->stamp() >= any.clock.stamp());
     if (const auto again = flushed->mint(); again && marks && marks->count > 0) {

@@ -50,6 +50,13 @@ int c_restore(struct c_clock* clock, uint64_t next, uint64_t durable) {
     return keep(clock, state, result);
 }
 
+int c_restart(struct c_clock* clock, uint64_t genesis_count, uint64_t stored) {
+    const struct gene_clocks_limits limits = limits_of(clock);
+    struct gene_clocks_state state = state_of(clock);
+    const bool result = gene_clocks_restart(&state, &limits, genesis_count, stored);
+    return keep(clock, state, result);
+}
+
 int c_mint(struct c_clock* clock, uint64_t count, uint64_t* first) {
     const struct gene_clocks_limits limits = limits_of(clock);
     struct gene_clocks_state state = state_of(clock);

@@ -24,6 +24,7 @@ struct c_visit {
 int c_less(struct c_mark a, struct c_mark b);
 int c_start(struct c_clock* clock, uint64_t genesis_count);
 int c_restore(struct c_clock* clock, uint64_t next, uint64_t durable);
+int c_restart(struct c_clock* clock, uint64_t genesis_count, uint64_t stored);
 int c_mint(struct c_clock* clock, uint64_t count, uint64_t* first);
 int c_observe(struct c_clock* clock, uint64_t stamp);
 int c_covers(uint64_t stamp, const struct c_mark* genome, size_t size);

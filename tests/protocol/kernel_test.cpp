@@ -44,6 +44,19 @@ GENE_CLOCKS_PROPERTY(KernelProperty, CAndCppClocksStartAlike, ()) {
     }
 }
 
+GENE_CLOCKS_PROPERTY(KernelProperty, CAndCppClocksRestartAlike, ()) {
+    const auto counter = test::counters<std::uint64_t>();
+    const auto maximum = *counter;
+    const auto genesis_count = *counter;
+    const auto stored = *counter;
+    c_clock clock{maximum, 0, 0, 0, 0};
+    const auto cpp = GeneClock::restart(RobotId{1}, stored, genesis_count, {.maximum = maximum});
+    RC_ASSERT(cpp.has_value() == (genesis_count < stored && stored <= maximum));
+    RC_ASSERT((c_restart(&clock, genesis_count, stored) != 0) == cpp.has_value());
+    const auto state = cpp ? cpp->state() : GeneClock::State{0, 0};
+    RC_ASSERT(state == (GeneClock::State{clock.next, clock.durable}));
+}
+
 GENE_CLOCKS_PROPERTY(KernelProperty, CAndCppClocksGoOnAlike, ()) {
     const auto counter = test::counters<std::uint64_t>();
     c_clock c{*counter, *counter, *counter, 0, 0};

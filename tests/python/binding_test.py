@@ -119,14 +119,16 @@ class GeneClockTest(unittest.TestCase):
     def test_restart_makes_no_mark_again(self):
         clock = GeneClock(1, block=100)
         before = {clock.mint() for _ in range(150)}
-        again = GeneClock.restart(1, clock.durable_needed(), block=100)
+        again = GeneClock.restart(1, clock.durable_needed(), 0, block=100)
         self.assertFalse(before & {again.mint() for _ in range(150)})
 
     def test_preconditions_are_errors(self):
         self.assertRaises(ValueError, GeneClock, 0)
         self.assertRaises(ValueError, GeneClock, 1, 5, maximum=5)
-        self.assertRaises(ValueError, GeneClock.restart, 1, 0)
-        self.assertRaises(ValueError, GeneClock.restart, 1, 6, maximum=5)
+        self.assertRaises(ValueError, GeneClock.restart, 1, 0, 0)
+        self.assertRaises(ValueError, GeneClock.restart, 1, 6, 0, maximum=5)
+        self.assertRaises(ValueError, GeneClock.restart, 1, 5, 5)
+        self.assertEqual(GeneClock.restart(1, 6, 5).stamp(), 6)
 
 
 class AlignTest(unittest.TestCase):

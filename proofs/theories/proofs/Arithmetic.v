@@ -1,5 +1,5 @@
 (** The arithmetic of one clock. *)
-From Coq Require Import NArith Lia.
+From Coq Require Import NArith Bool Lia.
 From GeneClocks Require Import Clock.
 From GeneClocks Require Claims.
 Open Scope N_scope.
@@ -72,4 +72,18 @@ Theorem reserve_is_a_block_ahead : Claims.reserve_is_a_block_ahead.
 Proof.
   intros l c H. destruct (reserve_spec l c H) as [-> ->].
   destruct (N.ltb_spec (durable c) (next c)); repeat split; intros; lia.
+Qed.
+
+Theorem restore_admits : Claims.restore_admits.
+Proof.
+  intros l n d. unfold restore.
+  destruct (N.eqb_spec n 0), (N.ltb_spec d n), (N.ltb_spec (maximum l) d); cbn;
+    split; intros; try reflexivity; lia.
+Qed.
+
+Theorem restart_admits : Claims.restart_admits.
+Proof.
+  intros l s. unfold restart. destruct (restore_admits l s s) as (Some_ & None_).
+  destruct (N.leb_spec s (genesis_count l)); split; intros;
+    solve [reflexivity | lia | apply Some_; lia | apply None_; lia].
 Qed.

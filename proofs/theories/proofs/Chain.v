@@ -1,6 +1,6 @@
 (** Under odNEAT's operators every genome is one causal chain. *)
 From Coq Require Import NArith PeanoNat List Bool Lia.
-From GeneClocks Require Import Mark Alignment Clock Protocol Genome.
+From GeneClocks Require Import Mark Alignment Clock Admission Protocol Genome.
 From GeneClocks Require Claims.
 From GeneClocks.proofs Require Import Order Arithmetic Invariant Safety Provenance Crossover.
 Import ListNotations.
@@ -63,33 +63,40 @@ Proof.
   intros I I' Real (S & Chain). split; auto. intros a b A B L Ga Gb.
   destruct (Chain a b A B L Ga Gb) as (ea & eb & Ma & Mb & K).
   assert (Kept : forall e, In e (history w) -> In e (history (fst (do l w c))) \/
-            exists r, c = Crash r /\ place e = r /\ stored (robots w r) < after e).
-  { intros e J. destruct c as [r count|r selection|r k|r m|r value|r]; cbn [step].
+            exists r anew, c = Crash r anew /\ place e = r /\ stored (robots w r) < after e).
+  { intros e J. assert (Hear : forall r m how,
+              In e (history (fst (hear gene_clocks l w r m how)))).
+    { intros r m how. destruct (hear_cases l w r m how) as [(new & _ & ->)|(why & ->)]; auto.
+      apply in_or_app. auto. }
+    destruct c as [r count|r selection|r k|r k|r m|r|r value|r anew]; cbn [step].
     - destruct (mint _ _ _) as [[? ?]|]; left; auto. apply in_or_app. auto.
     - destruct (may_send _ _); left; auto. apply in_or_app. auto.
-    - destruct (nth_error _ k) as [m|]; [destruct (learn _ _ _ m)|]; left; auto.
-      apply in_or_app. auto.
-    - destruct (learn _ _ _ m); left; auto. apply in_or_app. auto.
+    - destruct (nth_error _ k) as [m|]; left; auto.
+    - destruct (nth_error _ k) as [m|]; left; auto.
+    - left. auto.
+    - left. apply in_or_app. auto.
     - destruct (value <=? _); left; auto. apply in_or_app. auto.
-    - cbn. destruct (undone w r e) eqn:U.
-      + right. exists r. unfold undone in U. apply andb_prop in U as [P L'].
+    - rewrite resumes by apply (robots_ok l w I). cbn. destruct (undone w r e) eqn:U.
+      + right. exists r, anew. unfold undone in U. apply andb_prop in U as [P L'].
         apply N.eqb_eq in P. apply N.ltb_lt in L'. auto.
       + left. apply in_or_app. left. apply filter_In. now rewrite U. }
   assert (Same : forall x ex, In x g -> ~ is_genesis l x -> makes w ex x ->
             makes (fst (do l w c)) ex x).
   { intros x ex X Gx Mx. destruct (Real x X) as [|(e & M)]; [tauto|].
-    destruct (Kept ex (proj1 Mx)) as [J|(r & -> & P & L')]; [split; auto; apply Mx|].
-    exfalso. destruct M as (J & W). cbn in J. apply in_app_or in J as [J|[<-|[]]]; [|discriminate].
+    destruct (Kept ex (proj1 Mx)) as [J|(r & anew & -> & P & L')]; [split; auto; apply Mx|].
+    exfalso. destruct M as (J & W). cbn [step] in J. rewrite resumes in J by apply (robots_ok l w I).
+    cbn in J. apply in_app_or in J as [J|[<-|[]]]; [|discriminate].
     apply filter_In in J as (J & U). assert (e = ex) as ->.
     { eapply (made_once l w); eauto. split; auto. }
     unfold undone in U. apply N.eqb_eq in P. apply N.ltb_lt in L'. now rewrite P, L' in U. }
   exists ea, eb. split; [now apply Same|]. assert (Mb' : makes (fst (do l w c)) eb b) by now apply Same.
   split; auto. destruct K as [|(e & J & Br & T & P & T')]; [now left | right].
   exists e. repeat split; auto.
-  destruct (Kept e J) as [|(r & -> & P' & L')]; auto. exfalso.
+  destruct (Kept e J) as [|(r & anew & -> & P' & L')]; auto. exfalso.
   assert (O := robot_order l w I e eb J (proj1 Mb) P T').
   destruct (minting l w eb b I Mb) as (_ & A' & _).
-  destruct Mb' as (J' & W'). cbn in J'. apply in_app_or in J' as [J'|[<-|[]]]; [|discriminate].
+  destruct Mb' as (J' & W'). cbn [step] in J'.
+  rewrite resumes in J' by apply (robots_ok l w I). cbn in J'. apply in_app_or in J' as [J'|[<-|[]]]; [|discriminate].
   apply filter_In in J' as (_ & U). unfold undone in U. rewrite <- P, P', N.eqb_refl in U. cbn in U.
   destruct (N.ltb_spec (stored (robots w r)) (after eb)); [discriminate | lia].
 Qed.
@@ -177,13 +184,19 @@ Proof.
   destruct (reachable_invariant l _ Valid R) as (I & _).
   destruct (reachable_invariant l _ Valid R') as (I' & P').
   assert (Network : forall m, In m (network (world_of s)) -> In m (network w')).
-  { intros m M. subst w'. destruct c as [r count|r selection|r k|r m'|r value|r]; cbn [step].
+  { intros m M. subst w'. assert (Hear : forall r m' how,
+              In m (network (fst (hear gene_clocks l (world_of s) r m' how)))).
+    { intros r m' how. destruct (hear_cases l (world_of s) r m' how) as [(new & _ & ->)|(why & ->)];
+        auto. apply in_or_app. auto. }
+    destruct c as [r count|r selection|r k|r k|r m'|r|r value|r anew]; cbn [step].
     - destruct (mint _ _ _) as [[? ?]|]; auto. apply in_or_app. auto.
     - destruct (may_send _ _); auto. apply in_or_app. auto.
-    - destruct (nth_error _ k) as [m'|]; [destruct (learn _ _ _ m')|]; auto. apply in_or_app. auto.
-    - destruct (learn _ _ _ m'); auto. apply in_or_app. auto.
+    - destruct (nth_error _ k); auto.
+    - destruct (nth_error _ k); auto.
+    - auto.
+    - apply in_or_app. auto.
     - destruct (value <=? _); auto. apply in_or_app. auto.
-    - exact M. }
+    - rewrite resumes by apply (robots_ok l _ I). exact M. }
   split; [exact R'|]. split.
   - intros r g G K. destruct (Held r g G) as (C & _). apply chained_step; auto.
     intros a A. apply (provenance_exists l w'); auto. left. exists r. auto.
@@ -223,7 +236,7 @@ Proof.
   intros Valid Ok. cbn [operate].
   destruct (nth_error (held s r) i) as [parent|] eqn:P; [|exact Ok]. apply nth_error_In in P.
   destruct (do l (world_of s) (Mint r count)) as (w', answer) eqn:Do.
-  destruct answer as [first count'| | | | | | | |]; try exact Ok.
+  destruct answer as [first count'| | | | | | | | | | |]; try exact Ok.
   assert (W : w' = fst (do l (world_of s) (Mint r count))) by now rewrite Do.
   destruct (proj1 (proj2 Ok) r parent P) as (C & K).
   assert (Effect : count' = count /\ network w' = network (world_of s)
@@ -293,7 +306,8 @@ Proof.
     /\ known (robots w' r) = known (robots (world_of s) r) ++ genes m
     /\ forall r', r' <> r -> robots w' r' = robots (world_of s) r').
   { cbn [step] in Do. rewrite M in Do.
-    destruct (learn _ _ _ m) as [new|] eqn:L; [|discriminate]. injection Do as <-. cbn.
+    destruct (hear_cases l (world_of s) r m (Received k (genes m)))
+      as [(new & L & E)|(why & E)]; rewrite E in Do; [|discriminate]. injection Do as <-. cbn.
     rewrite app_nil_r, update_same. repeat split; [|intros r' Ne; now apply update_other].
     destruct (reachable_invariant l _ Valid (proj1 Ok)) as (I & _).
     now apply (learn_some l) in L as (_ & _ & ? & _); [|apply (robots_ok l _ I)]. }
@@ -309,6 +323,25 @@ Proof.
   - intros a A. rewrite Known. apply in_or_app. auto.
 Qed.
 
+Lemma listen_ok l s r k : valid l -> swarm_ok l s -> swarm_ok l (operate l s (Listen r k)).
+Proof.
+  intros Valid Ok. destruct (reachable_invariant l _ Valid (proj1 Ok)) as (I & _).
+  apply swarm_step_keeping; auto; [discriminate | |]; cbn [step];
+    (destruct (nth_error (network (world_of s)) k) as [m|]; [|now auto]);
+    destruct (hear_cases l (world_of s) r (Message (stamp m) []) (Received k []))
+      as [(new & L & ->)|(why & ->)]; auto.
+  - intros r' a A. apply (learn_some l) in L as (_ & _ & K & _); [|apply (robots_ok l _ I)].
+    cbn. unfold update. destruct (N.eqb_spec r' r) as [->|]; auto. rewrite K. apply in_or_app. auto.
+  - intros m' J. cbn in J. rewrite app_nil_r in J. now left.
+Qed.
+
+Lemma wait_ok l s r : valid l -> swarm_ok l s -> swarm_ok l (operate l s (Wait r)).
+Proof.
+  intros Valid Ok. apply swarm_step_keeping; auto; [discriminate | |].
+  - intros r' a A. cbn. unfold update. now destruct (N.eqb_spec r' r) as [->|].
+  - intros m J. cbn in J. rewrite app_nil_r in J. now left.
+Qed.
+
 Lemma store_ok l s r value : valid l -> swarm_ok l s -> swarm_ok l (operate l s (Store r value)).
 Proof.
   intros Valid Ok. apply swarm_step_keeping; auto; [discriminate | |].
@@ -318,20 +351,23 @@ Proof.
     rewrite app_nil_r in J. now left.
 Qed.
 
-Lemma fail_ok l s r : valid l -> swarm_ok l s -> swarm_ok l (operate l s (Fail r)).
+Lemma fail_ok l s r anew : valid l -> swarm_ok l s -> swarm_ok l (operate l s (Fail r anew)).
 Proof.
   intros Valid Ok.
-  destruct (swarm_step l s (Crash r) Valid Ok) as (R & Held & Net); [discriminate|].
-  split; [exact R|]. cbn [operate world_of held]. split; [|exact Net].
-  intros r' g G.
-  assert (K : In g (held s r') /\ forall a, In a g ->
-            In a (known (robots (fst (do l (world_of s) (Crash r))) r'))).
-  { destruct Ok as (_ & Held' & _). cbn [step fst robots]. unfold update.
-    destruct (N.eqb_spec r' r) as [->|].
-    - apply filter_In in G as (G & S). rewrite forallb_forall in S. split; auto.
-      intros a A. apply filter_In. split; [now apply (Held' r g G) | now apply S].
-    - split; auto. now apply Held'. }
-  split; [apply (Held r')|]; apply K.
+  destruct (swarm_step l s (Crash r anew) Valid Ok) as (R & Held & Net); [discriminate|].
+  destruct (reachable_invariant l _ Valid (proj1 Ok)) as (I & _).
+  split; [exact R|]. cbn [operate world_of held]. split.
+  - intros r' g G.
+    assert (K : In g (held s r') /\ forall a, In a g ->
+              In a (known (robots (fst (do l (world_of s) (Crash r anew))) r'))).
+    { destruct Ok as (_ & Held' & _). cbn [step].
+      rewrite resumes by apply (robots_ok l _ I). cbn [fst robots]. unfold update.
+      destruct (N.eqb_spec r' r) as [->|].
+      - apply filter_In in G as (G & S). rewrite forallb_forall in S. split; auto.
+        intros a A. apply filter_In. split; [now apply (Held' r g G) | now apply S].
+      - split; auto. now apply Held'. }
+    split; [apply (Held r')|]; apply K.
+  - cbn [step] in *. rewrite resumes in * by apply (robots_ok l _ I). exact Net.
 Qed.
 
 Lemma evolve_ok l operations : valid l -> swarm_ok l (evolve l operations).
@@ -340,7 +376,8 @@ Proof.
   - split; [apply reachable_init|]. cbn. split; [|tauto].
     intros r g [<-|[]]. split; auto. split; [apply genesis_sorted | tauto].
   - unfold evolve. rewrite fold_left_app. cbn [fold_left]. fold (evolve l operations).
-    destruct o; auto using add_genes_ok, recombine_ok, broadcast_ok, deliver_ok, store_ok, fail_ok.
+    destruct o; auto using add_genes_ok, recombine_ok, broadcast_ok, deliver_ok, listen_ok, wait_ok,
+      store_ok, fail_ok.
 Qed.
 
 (** ** The claims *)

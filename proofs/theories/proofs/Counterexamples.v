@@ -1,12 +1,13 @@
 (** What goes wrong without each rule of the protocol, and without each hypothesis of a claim. *)
 From Coq Require Import NArith QArith List.
-From GeneClocks Require Import Mark Alignment Clock Protocol Genome Recording.
+From GeneClocks Require Import Mark Alignment Clock Admission Protocol Genome Recording.
 From GeneClocks Require Claims Trace Wire.
 From GeneClocks.proofs Require Import Order Invariant Witnesses.
 Import ListNotations.
 Open Scope N_scope.
 
 Definition tight : limits := Limits 20 0 20 1.  (* no block, no window to speak of *)
+Definition bare : settings := Settings 0 None.
 
 (** Two makings, the first of which happened before the second, in a world. *)
 Ltac related w i j := exists (event_at w i), (event_at w j); split; [made_here|]; split; [made_here|].
@@ -25,7 +26,7 @@ Definition made_before (w : world) (a b : mark) : Prop := exists ea eb,
 
 (** The last counter used is sent, not the next unused one: a tie, and the cause sorts second. *)
 Definition sends_last_used : rules := {|
-  stamp_of c := next c - 1; merge := merge gene_clocks; credible := credible gene_clocks;
+  stamp_of c := next c - 1; merge := merge gene_clocks; credible := credible gene_clocks; gated := gated gene_clocks;
   may_send := may_send gene_clocks; resume := resume gene_clocks; retains := retains gene_clocks |}.
 
 Example sends_last_used_fails :
@@ -50,7 +51,7 @@ Qed.
 
 (** A genome is accepted, but its stamp is not merged. *)
 Definition without_merge : rules := {|
-  stamp_of := stamp_of gene_clocks; merge _ c _ := Some c; credible := credible gene_clocks;
+  stamp_of := stamp_of gene_clocks; merge _ c _ := Some c; credible := credible gene_clocks; gated := gated gene_clocks;
   may_send := may_send gene_clocks; resume := resume gene_clocks; retains := retains gene_clocks |}.
 
 Example without_merge_fails :
@@ -64,7 +65,7 @@ Qed.
 
 (** A message is believed whatever its genes: a forger need only name a gene above its stamp. *)
 Definition credulous : rules := {|
-  stamp_of := stamp_of gene_clocks; merge := merge gene_clocks; credible _ := true;
+  stamp_of := stamp_of gene_clocks; merge := merge gene_clocks; credible _ := true; gated := gated gene_clocks;
   may_send := may_send gene_clocks; resume := resume gene_clocks; retains := retains gene_clocks |}.
 
 Example credulous_fails :
@@ -76,47 +77,63 @@ Qed.
 
 (** Messages leave before the flush: the sender dies, and makes another gene with the same mark. *)
 Definition sends_before_flush : rules := {|
-  stamp_of := stamp_of gene_clocks; merge := merge gene_clocks; credible := credible gene_clocks;
+  stamp_of := stamp_of gene_clocks; merge := merge gene_clocks; credible := credible gene_clocks; gated := gated gene_clocks;
   may_send _ := true; resume := resume gene_clocks; retains := retains gene_clocks |}.
 
 Example sends_before_flush_fails :
   let w := run sends_before_flush tight
-             [Mint 7 1; Send 7 [Mark 2 7]; Receive 3 0; Crash 7; Mint 7 1] in
+             [Mint 7 1; Send 7 [Mark 2 7]; Receive 3 0; Crash 7 bare; Mint 7 1] in
   map what (lost w) = [Minted (Mark 2 7); Sent 0] /\ In (Mark 2 7) (made w)
   /\ In (Mark 2 7) (known (robots w 3)).
 Proof. split; [reflexivity|]. split; in_list. Qed.
 
 (** Only what is minted is stored, not what is merged: block reservation must cover both. *)
 Definition merges_unreserved : rules := {|
-  stamp_of := stamp_of gene_clocks; credible := credible gene_clocks;
+  stamp_of := stamp_of gene_clocks; credible := credible gene_clocks; gated := gated gene_clocks;
   merge l c stamp := option_map (fun c' => Clock (next c') (durable c)) (observe l c stamp);
   may_send := may_send gene_clocks; resume := resume gene_clocks; retains := retains gene_clocks |}.
 
 Example merges_unreserved_fails :
   let w := run merges_unreserved tight
-    [Mint 7 2; Persist 7 4; Send 7 [Mark 3 7]; Receive 3 0; Send 3 [Mark 3 7]; Crash 3; Mint 3 1] in
+    [Mint 7 2; Persist 7 4; Send 7 [Mark 3 7]; Receive 3 0; Send 3 [Mark 3 7]; Crash 3 bare; Mint 3 1] in
   map what (lost w) = [Received 0 [Mark 3 7]; Sent 1] /\ In (Mark 2 3) (made w).
 Proof. split; [reflexivity | in_list]. Qed.
 
 (** The counter is not stored at all. *)
 Definition volatile_counter : rules := {|
-  stamp_of := stamp_of gene_clocks; merge := merge gene_clocks; credible := credible gene_clocks;
-  may_send := may_send gene_clocks; resume l _ := restart (start l);
+  stamp_of := stamp_of gene_clocks; merge := merge gene_clocks; credible := credible gene_clocks; gated := gated gene_clocks;
+  may_send := may_send gene_clocks; resume l _ := restart l (start l);
   retains := retains gene_clocks |}.
 
 Example volatile_counter_fails :
-  made (run volatile_counter tight [Mint 7 1; Persist 7 3; Crash 7; Mint 7 1])
+  made (run volatile_counter tight [Mint 7 1; Persist 7 3; Crash 7 bare; Mint 7 1])
   = [Mark 2 7; Mark 2 7].
 Proof. reflexivity. Qed.
 
+(** A restart does not know how many genesis marks there are: a store that was made for one of them, in
+    a fleet that has five. The new gene sorts among the initial ones. *)
+Definition forgets_genesis : rules := {|
+  stamp_of := stamp_of gene_clocks; merge := merge gene_clocks; credible := credible gene_clocks; gated := gated gene_clocks;
+  may_send := may_send gene_clocks; resume l stored := restore l stored stored;
+  retains := retains gene_clocks |}.
+
+Example forgets_genesis_fails :
+  let l := Limits 20 0 20 5 in
+  let fresh := init l in
+  let other_store := World 0 (update (robots fresh) 7 (Robot (Clock 2 2) 2 [] 0 None)) [] [] [] in
+  made (fst (step forgets_genesis l (fst (step forgets_genesis l other_store (Crash 7 bare))) (Mint 7 1)))
+  = [Mark 2 7]
+  /\ snd (do l other_store (Crash 7 bare)) = NotResumed.
+Proof. split; reflexivity. Qed.
+
 (** A stored genome is kept although it holds a mark above the restored counter. *)
 Definition hoards : rules := {|
-  stamp_of := stamp_of gene_clocks; merge := merge gene_clocks; credible := credible gene_clocks;
+  stamp_of := stamp_of gene_clocks; merge := merge gene_clocks; credible := credible gene_clocks; gated := gated gene_clocks;
   may_send := may_send gene_clocks; resume := resume gene_clocks; retains _ _ := true |}.
 
 Example hoards_fails :
   let w := run hoards tight
-    [Mint 7 2; Persist 7 4; Send 7 [Mark 3 7]; Receive 3 0; Crash 3; Mint 3 1] in
+    [Mint 7 2; Persist 7 4; Send 7 [Mark 3 7]; Receive 3 0; Crash 3 bare; Mint 3 1] in
   made_before w (Mark 3 7) (Mark 2 3).
 Proof.
   intros w. related w 1%nat 4%nat. apply in_between with (event_at w 3); [by_gene (Mark 3 7) | along_robot].
@@ -153,21 +170,68 @@ Proof. split; reflexivity. Qed.
 Example narrow_window_shuts_out :
   let l := Limits 20 0 2 1 in
   let commands := [Mint 7 3; Persist 7 5; Send 7 []] in
-  Claims.budget l commands = start l + window l + 1
-  /\ snd (do l (after_all l commands) (Receive 3 0)) = Refused.
+  Claims.budget_with_storing l commands = start l + window l + 1
+  /\ snd (do l (after_all l commands) (Receive 3 0)) = Refused BeyondWindow.
 Proof. split; reflexivity. Qed.
 
 (** … and a crash costs a block of it, each time. *)
 Example crashes_shut_out :
   let l := Limits 20 2 2 1 in
-  snd (do l (after_all l [Mint 7 1; Persist 7 5; Crash 7; Send 7 []]) (Receive 3 0)) = Refused.
+  snd (do l (after_all l [Mint 7 1; Persist 7 5; Crash 7 bare; Send 7 []]) (Receive 3 0)) = Refused BeyondWindow.
 Proof. reflexivity. Qed.
+
+(** … and so does what is stored beyond need. Here no gene is ever made: the robot has numbered eight
+    genomes by the same counter. A gate that was set for genes alone refuses it as well, until … *)
+Example storing_shuts_out :
+  let l := Limits 20 0 20 1 in
+  let commands := [Crash 3 (Settings 0 (Some (Policy 2 1 100))); Persist 7 10; Crash 7 bare; Send 7 []] in
+  made (after_all l commands) = []
+  /\ next (memory (robots (after_all l commands) 7)) = 10
+  /\ snd (do l (after_all l commands) (Receive 3 0)) = Refused BeyondAllowance
+  (** … time has caught up. *)
+  /\ snd (do l (after_all l (commands ++ repeat (Elapse 3) 6)) (Receive 3 0)) = Accepted.
+Proof. vm_compute. repeat split. Qed.
+
+(** What a budget without the cost of storing would say is false of this robot. *)
+Example budget_without_storing_is_false :
+  let l := Limits 20 0 20 1 in
+  let commands := [Persist 7 10; Crash 7 bare] in
+  let without := fold_right (fun c total => match c with Mint _ n => n | Crash _ _ => block l
+                                            | _ => 0 end + total) (start l) commands in
+  without = 2 /\ next (memory (robots (after_all l commands) 7)) = 10
+  /\ Claims.budget_with_storing l commands = 10.
+Proof. vm_compute. repeat split. Qed.
+
+(** [lives_on]: a restart gives a gate its initial allowance again. *)
+Example lives_on_is_needed :
+  let p := Policy 2 0 100 in
+  let later := [Inject 9 (Message 4 []); Persist 9 4; Crash 9 (Settings 0 (Some p)); Inject 9 (Message 6 [])] in
+  let (began, w) := Claims.life tight [] 9 0 p later in
+  began + Claims.own_genes 9 later + Claims.earned p 9 later = 4 /\ next (memory (robots w 9)) = 6.
+Proof. vm_compute. split; reflexivity. Qed.
+
+(** An allowance that saturates loses what it would have earned. *)
+Example ceiling_is_needed :
+  let p := Policy 2 2 3 in
+  let later := [Elapse 9; Elapse 9; Elapse 9] in
+  let (began, w) := Claims.life tight [] 9 0 p later in
+  began + Claims.earned p 9 later = 10
+  /\ snd (do tight w (Inject 9 (Message 6 []))) = Refused BeyondAllowance.
+Proof. vm_compute. split; reflexivity. Qed.
 
 (** [honest]: a forged message brings genes that nobody made, and marks from a robot's future. *)
 Example honest_is_needed :
   let w := after_all tight [Inject 3 (Message 10 [Mark 9 7])] in
   In (Mark 9 7) (known (robots w 3)) /\ made w = [] /\ next (memory (robots w 7)) = 2.
 Proof. split; [in_list|]. split; reflexivity. Qed.
+
+(** … and a robot that believed one passes it on, so that its receivers look at genes for good reason. *)
+Example honest_is_needed_without_genes :
+  let w := after_all tight [Crash 7 (Settings 0 (Some (Policy 20 0 20))); Inject 3 (Message 10 [Mark 9 7]);
+                            Persist 3 10; Send 3 [Mark 9 7]] in
+  snd (do tight w (Receive 7 0)) = Refused IdentityConflict
+  /\ snd (do tight w (Overhear 7 0)) = Accepted.
+Proof. vm_compute. split; reflexivity. Qed.
 
 (** A trace does not show forged messages, so the checker sees their effect as a fault. *)
 Example honest_is_needed_to_record :
@@ -237,7 +301,7 @@ Example each_fault_is_found : map (fun e => found (after_one_send ++ [e]))
   [Trace.Mints 7 4 1; Trace.Mints 7 6 1; Trace.Mints 7 5 16; Trace.Sends 7 4 3; Trace.Sends 7 5 5;
    Trace.Receives 3 1 5; Trace.Receives 3 0 6; Trace.Receives 3 0 2; Trace.Stores 7 7; Trace.Stores 7 21;
    Trace.Restarts 7 5; Trace.Restarts 3 8; Trace.Mints 7 5 15]
-  = [(3, Some Trace.NotNextCounter); (3, Some Trace.NotNextCounter); (3, Some Trace.BeyondMaximum);
+  = [(3, Some Trace.NotNextCounter); (3, Some Trace.NotNextCounter); (3, Some Trace.MintedBeyondMaximum);
      (3, Some Trace.WrongStamp); (3, Some Trace.GeneAboveStamp);
      (3, Some Trace.NoSuchMessage); (3, Some Trace.WrongMaximum); (3, Some Trace.WrongMaximum);
      (3, Some Trace.StoredBackwards); (3, Some Trace.StoredBackwards);

@@ -24,49 +24,55 @@ Proof.
   intros I. assert (Update : forall r' new, floor (robots w r') <= floor new ->
               floor (robots w r) <= floor (update (robots w) r' new r)).
   { intros r' new L. unfold update. destruct (N.eqb_spec r r') as [->|]; auto. lia. }
+  assert (Hear : forall r' m how, floor (robots w r)
+            <= floor (robots (fst (hear gene_clocks l w r' m how)) r)).
+  { intros r' m how. destruct (hear_cases l w r' m how) as [(new & L & ->)|(why & ->)]; [|cbn; lia].
+    apply (learn_some l) in L as (_ & S & _ & _ & E & _); [|apply (robots_ok l w I)].
+    apply Update. unfold floor. lia. }
   unfold floor in *.
-  destruct c as [r' count|r' selection|r' k|r' m|r' value|r']; cbn [step];
+  destruct c as [r' count|r' selection|r' k|r' k|r' m|r'|r' value|r' anew]; cbn [step];
     destruct (robots_ok l w I r') as (A & B & C & D).
-  - destruct (mint l _ count) as [[first c]|] eqn:M; [|cbn; lia].
-    apply mint_some in M as (-> & E & _); try lia. apply Update. cbn. lia.
+  - destruct (mint _ _ count) as [[first c]|] eqn:M; [|cbn; lia].
+    apply mint_some in M as (-> & E & _); cbn; try lia. apply Update. cbn. lia.
   - destruct (may_send _ _); [|cbn; lia]. apply Update. cbn. lia.
-  - destruct (nth_error _ k) as [m|]; [|cbn; lia].
-    destruct (learn _ l _ m) as [new|] eqn:L; [|cbn; lia].
-    apply (learn_some l) in L as (_ & S & _ & E & _); [|apply (robots_ok l w I)].
-    apply Update. lia.
-  - destruct (learn _ l _ m) as [new|] eqn:L; [|cbn; lia].
-    apply (learn_some l) in L as (_ & S & _ & E & _); [|apply (robots_ok l w I)].
-    apply Update. lia.
-  - destruct (value <=? _); [|cbn; lia]. apply Update. cbn. lia.
+  - destruct (nth_error _ k) as [m|]; [apply Hear | cbn; lia].
+  - destruct (nth_error _ k) as [m|]; [apply Hear | cbn; lia].
+  - apply Hear.
   - apply Update. cbn. lia.
+  - destruct (value <=? _); [|cbn; lia]. apply Update. cbn. lia.
+  - rewrite resumes by apply (robots_ok l w I). apply Update. cbn. lia.
 Qed.
 
 (** An event of the next step starts no lower than the floor. *)
 Lemma new_event_above_floor l w c e : invariant l w -> In e (history (fst (do l w c))) ->
   In e (history w) \/ floor (robots w (place e)) <= before e.
 Proof.
-  intros I. unfold floor.
-  destruct c as [r count|r selection|r k|r m|r value|r]; cbn [step];
+  intros I. assert (Hear : forall r m how, In e (history (fst (hear gene_clocks l w r m how))) ->
+            In e (history w) \/ floor (robots w (place e)) <= before e).
+  { intros r m how. destruct (hear_cases l w r m how) as [(new & _ & ->)|(why & ->)]; [|now left].
+    intros J. apply in_app_or in J as [J|[<-|[]]]; [now left | right]. unfold floor. cbn. lia. }
+  unfold floor in *.
+  destruct c as [r count|r selection|r k|r k|r m|r|r value|r anew]; cbn [step];
     destruct (robots_ok l w I r) as (A & B & C & D).
-  - destruct (mint l _ count) as [[first c]|] eqn:M; [|now left].
-    apply mint_some in M as (-> & _); try lia. intros J.
+  - destruct (mint _ _ count) as [[first c]|] eqn:M; [|now left].
+    apply mint_some in M as (-> & _); cbn; try lia. intros J.
     apply in_app_or in J as [J|J]; [now left | right].
     apply minted_event in J as (_ & -> & _ & L). lia.
   - destruct (may_send _ _); [|now left]. intros J.
     apply in_app_or in J as [J|[<-|[]]]; [now left | right]. cbn. lia.
-  - destruct (nth_error _ k) as [m|]; [|now left].
-    destruct (learn _ l _ m) as [new|]; [|now left]. intros J.
-    apply in_app_or in J as [J|[<-|[]]]; [now left | right]. cbn. lia.
-  - destruct (learn _ l _ m) as [new|]; [|now left]. intros J.
-    apply in_app_or in J as [J|[<-|[]]]; [now left | right]. cbn. lia.
+  - destruct (nth_error _ k) as [m|]; [apply Hear | now left].
+  - destruct (nth_error _ k) as [m|]; [apply Hear | now left].
+  - apply Hear.
+  - intros J. cbn in J. rewrite app_nil_r in J. now left.
   - destruct (value <=? _); [|now left]. intros J. cbn in J. rewrite app_nil_r in J. now left.
-  - intros J. cbn in J. apply in_app_or in J as [J|[<-|[]]]; [left | right; cbn; lia].
+  - rewrite resumes by apply (robots_ok l w I).
+    intros J. cbn in J. apply in_app_or in J as [J|[<-|[]]]; [left | right; cbn; lia].
     apply filter_In in J. apply J.
 Qed.
 
-Lemma after_crash l earlier r later : valid l ->
-  let crashed := after_all l (earlier ++ [Crash r]) in
-  let w := after_all l (earlier ++ [Crash r] ++ later) in
+Lemma after_crash l earlier r anew later : valid l ->
+  let crashed := after_all l (earlier ++ [Crash r anew]) in
+  let w := after_all l (earlier ++ [Crash r anew] ++ later) in
   next (memory (robots crashed r)) <= floor (robots w r)
   /\ forall e, In e (history w) -> place e = r -> (now crashed <= time e)%nat ->
        next (memory (robots crashed r)) <= before e.
@@ -75,10 +81,12 @@ Proof.
   assert (I : invariant l crashed) by now apply run_invariant.
   induction later as [|c later [IH1 IH2]] using rev_ind.
   - rewrite app_nil_r. fold crashed. split.
-    + unfold crashed. rewrite run_snoc. unfold floor. cbn. rewrite update_same. cbn. lia.
+    + unfold crashed. rewrite run_snoc. unfold floor. cbn [step].
+      rewrite resumes by apply (robots_ok l _ (run_invariant l Valid earlier)).
+      cbn. rewrite update_same. cbn. lia.
     + intros e J _ T. destruct (events_past l crashed I e J). lia.
   - rewrite !app_assoc in *. rewrite run_snoc.
-    set (w := after_all l ((earlier ++ [Crash r]) ++ later)) in *.
+    set (w := after_all l ((earlier ++ [Crash r anew]) ++ later)) in *.
     assert (I' : invariant l w) by now apply run_invariant.
     split.
     + assert (L := floor_never_sinks l w c r I'). lia.
@@ -87,12 +95,12 @@ Qed.
 
 Theorem restart_is_safe : Claims.restart_is_safe.
 Proof.
-  intros l earlier r later e gene Valid crashed w M P T.
+  intros l earlier r anew later e gene Valid crashed w M P T.
   assert (I : invariant l crashed) by now apply run_invariant.
   assert (I' : invariant l w) by now apply run_invariant.
   assert (L : next (memory (robots crashed r)) <= counter gene).
   { destruct (minting l w e gene I' M) as (-> & _).
-    destruct (after_crash l earlier r later Valid) as (_ & L). apply L; auto. apply M. }
+    destruct (after_crash l earlier r anew later Valid) as (_ & L). apply L; auto. apply M. }
   split; [|split].
   - intros old K. apply counter_decides. destruct (robots_ok l crashed I r) as (_ & _ & _ & D).
     specialize (D old K). lia.
@@ -101,4 +109,19 @@ Proof.
     destruct (minting l crashed e' gene I M') as (E' & A & _). destruct M' as (J & _).
     destruct (events_past l crashed I e' J) as (_ & _ & L'). rewrite E in E'.
     injection E' as B P'. rewrite <- P', P in L'. rewrite E in L. cbn in L. lia.
+Qed.
+
+Theorem crash_is_survived : Claims.crash_is_survived.
+Proof.
+  intros l commands r anew Valid w. assert (I := run_invariant l Valid commands). fold w in I.
+  cbn [step]. rewrite resumes by apply (robots_ok l w I). split; [reflexivity|].
+  cbn. now rewrite update_same.
+Qed.
+
+Theorem snapshot_is_exact : Claims.snapshot_is_exact.
+Proof.
+  intros l commands r Valid c. assert (I := run_invariant l Valid commands).
+  destruct (robots_ok l _ I r) as (A & B & _). fold c in A, B.
+  destruct (restore_admits l (next c) (durable c)) as (R & _). unfold start in A.
+  rewrite R by lia. now destruct c.
 Qed.

@@ -1,6 +1,7 @@
 (** What holds of every world that the protocol can reach. *)
 From Coq Require Import NArith PeanoNat List Bool Lia.
-From GeneClocks Require Import Mark Clock Protocol.
+From GeneClocks Require Import Mark Clock Admission Protocol.
+From GeneClocks Require Claims.
 From GeneClocks.proofs Require Import Order Arithmetic.
 Import ListNotations.
 Open Scope N_scope.
@@ -15,7 +16,7 @@ Definition below (n : N) (gs : list mark) : Prop := forall gene, In gene gs -> c
 
 Definition robot_ok (s : robot) : Prop :=
   start l <= next (memory s) <= durable (memory s) /\ durable (memory s) <= maximum l
-  /\ start l <= stored s <= durable (memory s) /\ below (next (memory s)) (known s).
+  /\ start l <= stored s <= maximum l /\ below (next (memory s)) (known s).
 
 Definition event_ok (w : world) (e : event) : Prop :=
   match what e with
@@ -25,7 +26,8 @@ Definition event_ok (w : world) (e : event) : Prop :=
       /\ exists m, nth_error (network w) k = Some m /\ stamp m = after e
            /\ below (stamp m) (genes m)
   | Received k gs => below (after e) gs
-      /\ exists m, nth_error (network w) k = Some m /\ stamp m <= after e /\ genes m = gs
+      /\ exists m, nth_error (network w) k = Some m /\ stamp m <= after e
+           /\ forall gene, In gene gs -> In gene (genes m)
   | Injected gs | Restarted gs => below (after e) gs
   end.
 
@@ -195,21 +197,64 @@ Proof.
     rewrite N2Nat.id. destruct gene; cbn in *. f_equal. lia.
 Qed.
 
-Lemma learn_some s m new : robot_ok s -> learn gene_clocks l s m = Some new ->
-  robot_ok new /\ stored new = stored s /\ known new = known s ++ genes m
-  /\ next (memory new) = N.max (next (memory s)) (stamp m)
-  /\ below (stamp m) (genes m) /\ stamp m <= next (memory s) + window l
-  /\ durable (memory new) <= N.max (durable (memory s)) (next (memory new) + block l).
+(** All that the proofs need to know of a gate: it refuses more than the clock by itself does. *)
+Lemma pass_some l' r c g at_stamp gs c' g' : pass l' r c g at_stamp gs = inl (c', g') ->
+  observe l' c at_stamp = Some c' /\ law g' = law g
+  /\ next c' + allowance g' = next c + allowance g.
 Proof.
-  intros (A & B & C & D). unfold learn. cbn [credible merge gene_clocks].
+  unfold pass, accept. destruct (existsb _ gs); [discriminate|].
+  destruct (observe l' c at_stamp) as [o|] eqn:O; [|discriminate].
+  destruct (N.ltb_spec (allowance g) (next o - next c)) as [|H]; [discriminate|].
+  intros [= <- <-]. apply observe_is_maximum in O. cbn. repeat split. lia.
+Qed.
+
+Lemma window_bounds s c at_stamp :
+  observe (own_limits l s) (memory s) at_stamp = Some c -> at_stamp <= next (memory s) + window l.
+Proof.
+  intros O. destruct (N.le_gt_cases at_stamp (next (memory s) + window l)) as [|H]; auto.
+  assert (observe (own_limits l s) (memory s) at_stamp = None); [|congruence].
+  apply observe_none. now right.
+Qed.
+
+Lemma learn_some r s m new : robot_ok s -> learn gene_clocks l r s m = inl new ->
+  robot_ok new /\ stored new = stored s /\ known new = known s ++ genes m
+  /\ block_of new = block_of s
+  /\ next (memory new) = N.max (next (memory s)) (stamp m)
+  /\ below (stamp m) (genes m) /\ stamp m <= next (memory s) + Claims.reach l s
+  /\ durable (memory new) <= N.max (durable (memory s)) (next (memory new) + block_of s).
+Proof.
+  intros (A & B & C & D). unfold learn. cbn [credible merge gated gene_clocks].
   destruct (forallb _ (genes m)) eqn:F; [|discriminate].
-  destruct (observe l (memory s) (stamp m)) as [c|] eqn:O; [|discriminate]. intros [= <-].
-  destruct (observe_some l (memory s) (stamp m) c) as (E & ? & ? & ? & ?); try lia; auto.
   assert (Low : below (stamp m) (genes m)).
   { intros gene J. rewrite forallb_forall in F. now apply N.ltb_lt, F. }
-  cbn. repeat split; auto; try lia; cbn; try lia.
-  intros gene J. apply in_app_or in J as [J|J]; [specialize (D _ J) | specialize (Low _ J)]; lia.
+  assert (Learnt : forall c g, observe (own_limits l s) (memory s) (stamp m) = Some c ->
+    stamp m <= next (memory s) + Claims.reach l s ->
+    let new := Robot c (stored s) (known s ++ genes m) (block_of s) g in
+    robot_ok new /\ next c = N.max (next (memory s)) (stamp m)
+    /\ durable c <= N.max (durable (memory s)) (next c + block_of s)).
+  { intros c g O R. destruct (observe_some (own_limits l s) (memory s) (stamp m) c)
+      as (E & ? & ? & ? & ?); try (cbn; lia); auto.
+    cbn in *. repeat split; auto; try lia; cbn; try lia.
+    intros gene J. apply in_app_or in J as [J|J]; [specialize (D _ J) | specialize (Low _ J)]; lia. }
+  destruct (guard s) as [g|] eqn:G.
+  - destruct (pass _ r _ g _ _) as [[c g']|] eqn:O; [|discriminate]. intros [= <-].
+    apply pass_some in O as (O & _ & Paid).
+    assert (O' := O). apply observe_is_maximum in O'.
+    assert (R : stamp m <= next (memory s) + Claims.reach l s).
+    { unfold Claims.reach. rewrite G. assert (W := window_bounds s c _ O). lia. }
+    destruct (Learnt c (Some g') O R) as (K & ? & ?). split; [exact K|]. cbn. repeat split; auto; lia.
+  - destruct (observe _ _ (stamp m)) as [c|] eqn:O; [|discriminate]. intros [= <-].
+    assert (R : stamp m <= next (memory s) + Claims.reach l s).
+    { unfold Claims.reach. rewrite G. exact (window_bounds s c _ O). }
+    destruct (Learnt c None eq_refl R) as (K & ? & ?). split; [exact K|]. cbn. repeat split; auto; lia.
 Qed.
+
+(** What a robot hears leaves the world alone, or is learnt. *)
+Lemma hear_cases w r m how :
+  (exists new, learn gene_clocks l r (robots w r) m = inl new
+     /\ hear gene_clocks l w r m how = (commit w r new [] [event_now w r how new], Accepted))
+  \/ exists why, hear gene_clocks l w r m how = (w, Refused why).
+Proof. unfold hear. destruct (learn gene_clocks l r (robots w r) m); eauto. Qed.
 
 Lemma knows_in s gene : knows s gene = true <-> In gene (known s).
 Proof.
@@ -222,9 +267,16 @@ Lemma selected s selection gene :
   In gene (filter (knows s) selection) <-> In gene selection /\ In gene (known s).
 Proof. now rewrite filter_In, knows_in. Qed.
 
-Lemma crash_invariant w r : invariant w -> invariant (fst (do l w (Crash r))).
+(** The clock comes back from whatever was stored. *)
+Lemma resumes s : robot_ok s -> resume gene_clocks l (stored s) = Some (Clock (stored s) (stored s)).
 Proof.
-  intros I. cbn [step fst]. set (s := robots w r). cbn [resume gene_clocks restart next].
+  intros (_ & _ & C & _). apply restart_admits. unfold start in C. lia.
+Qed.
+
+Lemma crash_invariant w r anew : invariant w -> invariant (fst (do l w (Crash r anew))).
+Proof.
+  intros I. cbn [step]. rewrite resumes by apply (robots_ok w I). cbn [fst next].
+  set (s := robots w r).
   destruct (robots_ok w I r) as (A & B & C & D). fold s in A, B, C, D.
   set (left := filter _ (known s)).
   assert (Left : below (stored s) left).
@@ -273,12 +325,30 @@ Proof.
     rewrite U in S. discriminate.
 Qed.
 
+Lemma hear_invariant w r m how : invariant w ->
+  (forall k, how <> Sent k) ->
+  (forall new, let w' := commit w r new [] [event_now w r how new] in
+     below (stamp m) (genes m) -> stamp m <= next (memory new) ->
+     event_ok w' (event_now w r how new)) ->
+  invariant (fst (hear gene_clocks l w r m how)).
+Proof.
+  intros I NotSent Ok.
+  destruct (hear_cases w r m how) as [(new & L & ->)|(why & ->)]; [|exact I].
+  apply learn_some in L as (Ok' & S & _ & _ & E & Low & _); [|apply (robots_ok w I)]. cbn [fst].
+  apply commit_invariant; auto.
+  - lia.
+  - cbn. repeat split; lia.
+  - intros e [<-|[]]. apply Ok; auto. lia.
+  - left. split; auto. intros e k [<-|[]]. apply NotSent.
+Qed.
+
 Lemma step_invariant w c : invariant w -> invariant (fst (do l w c)).
 Proof.
-  intros I. destruct c as [r count|r selection|r k|r m|r value|r]; [..|now apply crash_invariant].
+  intros I. destruct c as [r count|r selection|r k|r k|r m|r|r value|r anew];
+    [..|now apply crash_invariant].
   - cbn [step]. destruct (robots_ok w I r) as (A & B & C & D).
-    destruct (mint l _ count) as [[first c]|] eqn:M; [|exact I]. cbn [fst].
-    apply mint_some in M as (-> & E & F & G); try lia.
+    destruct (mint (own_limits l _) _ count) as [[first c]|] eqn:M; [|exact I]. cbn [fst].
+    apply mint_some in M as (-> & E & F & G); cbn in *; try lia.
     apply commit_invariant; auto.
     + cbn. repeat split; cbn; try lia. intros gene J.
       apply in_app_or in J as [J|J]; [specialize (D _ J); cbn; lia|].
@@ -301,24 +371,21 @@ Proof.
       intros gene J. apply selected in J as [_ J]. now apply D.
     + right. exists m. eexists. repeat split.
   - cbn [step]. destruct (nth_error (network w) k) as [m|] eqn:M; [|exact I].
-    destruct (learn gene_clocks l (robots w r) m) as [new|] eqn:L; [|exact I]. cbn [fst].
-    apply learn_some in L as (Ok & S & _ & E & Low & _); [|apply (robots_ok w I)].
-    apply commit_invariant; auto.
-    + lia.
-    + cbn. repeat split; lia.
-    + intros e [<-|[]]. unfold event_ok. cbn. split.
-      * intros gene J. specialize (Low gene J). lia.
-      * exists m. rewrite app_nil_r. repeat split; auto. lia.
-    + left. split; auto. intros e k' [<-|[]]. discriminate.
-  - cbn [step]. destruct (learn gene_clocks l (robots w r) m) as [new|] eqn:L; [|exact I].
-    cbn [fst]. apply learn_some in L as (Ok & S & _ & E & Low & _); [|apply (robots_ok w I)].
-    apply commit_invariant; auto.
-    + lia.
-    + cbn. repeat split; lia.
-    + intros e [<-|[]]. unfold event_ok. cbn. intros gene J. specialize (Low gene J). lia.
-    + left. split; auto. intros e k' [<-|[]]. discriminate.
+    apply hear_invariant; try discriminate; auto. intros new w' Low L. cbn. split.
+    + intros gene J. specialize (Low gene J). lia.
+    + exists m. rewrite app_nil_r. repeat split; auto.
+  - cbn [step]. destruct (nth_error (network w) k) as [m|] eqn:M; [|exact I].
+    apply hear_invariant; try discriminate; auto. intros new w' Low L. cbn in *. split; [intros _ []|].
+    exists m. rewrite app_nil_r. repeat split; auto. intros _ [].
+  - apply hear_invariant; try discriminate; auto. intros new w' Low L. cbn. intros gene J. specialize (Low gene J). lia.
+  - cbn [step fst]. destruct (robots_ok w I r) as (A & B & C & D). apply commit_invariant; auto.
+    + repeat split; cbn; auto; lia.
+    + cbn. lia.
+    + cbn. lia.
+    + intros e [].
+    + left. split; auto.
   - cbn [step]. destruct (robots_ok w I r) as (A & B & C & D).
-    destruct (N.leb_spec value (durable (memory (robots w r)))); [|exact I]. cbn [fst].
+    destruct (N.leb_spec value (maximum l)); [|exact I]. cbn [fst].
     apply commit_invariant; auto.
     + repeat split; cbn; auto; lia.
     + cbn. lia.

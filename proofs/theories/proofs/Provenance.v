@@ -1,6 +1,6 @@
 (** Where genes come from, when nobody forges messages. *)
 From Coq Require Import NArith PeanoNat List Bool Lia.
-From GeneClocks Require Import Mark Clock Protocol Genome.
+From GeneClocks Require Import Mark Clock Admission Protocol Genome.
 From GeneClocks Require Claims.
 From GeneClocks.proofs Require Import Order Arithmetic Invariant Safety.
 Import ListNotations.
@@ -58,11 +58,11 @@ Proof.
   destruct (events_past l w I e J), (robots_ok l w I (place e)) as (? & _). lia.
 Qed.
 
-Lemma crash_provenance l w r : invariant l w -> provenance l w ->
-  provenance l (fst (do l w (Crash r))).
+Lemma crash_provenance l w r anew : invariant l w -> provenance l w ->
+  provenance l (fst (do l w (Crash r anew))).
 Proof.
-  intros I (Known & Net). assert (I' := step_invariant l w (Crash r) I).
-  cbn [step] in *. set (w' := fst _) in *.
+  intros I (Known & Net). assert (I' := step_invariant l w (Crash r anew) I).
+  cbn [step] in *. rewrite resumes in * by apply (robots_ok l w I). set (w' := fst _) in *.
   assert (Survive : forall e gene, makes w e gene ->
             (place e = r -> after e <= stored (robots w r)) -> makes w' e gene).
   { intros e gene (J & W) L. split; auto. apply in_or_app. left. apply filter_In. split; auto.
@@ -113,10 +113,25 @@ Proof.
       + apply (sourced_extends l w); auto.
     - intros m gene. subst w'. cbn [network commit]. intros M J.
       apply in_app_or in M as [M|M]; apply (published_extends l w); eauto. }
-  destruct c as [r count|r selection|r k|r m|r value|r]; [| | |destruct (Honest r m eq_refl)
-    | | now apply crash_provenance]; cbn [step]; destruct (robots_ok l w I r) as (A & B & C & D).
-  - destruct (mint l _ count) as [[first c]|] eqn:M; [|exact P]. cbn [fst].
-    apply mint_some in M as (-> & _); try lia. apply Commit; cbn [stored known]; [lia | | intros ? ? []].
+  assert (Hear : forall r m k gs,
+            (forall gene, In gene (genes m) -> published l w gene) ->
+            (forall gene, In gene (genes m) -> In gene gs) ->
+            provenance l (fst (hear gene_clocks l w r m (Received k gs)))).
+  { intros r m k gs Pub Sub.
+    destruct (hear_cases l w r m (Received k gs)) as [(new & L & ->)|(why & ->)]; [|exact P].
+    apply (learn_some l) in L as (_ & S & E & _); [|apply (robots_ok l w I)].
+    apply Commit; [lia | | intros ? ? []].
+    intros gene J. rewrite E in J. apply in_app_or in J as [J|J]; [now left | right].
+    destruct (Pub gene J) as [G|(e & (Je & W) & Le)]; [now left | right].
+    exists e. split; [split; auto; apply in_or_app; now left|].
+    destruct (N.eq_dec (place e) r) as [|Ne]; [now left | right].
+    cbn [robots commit]. rewrite update_other by assumption. split; auto.
+    eexists. split; [apply in_or_app; right; now left|]. cbn. repeat split; auto.
+    apply (events_past l w I e Je). }
+  destruct c as [r count|r selection|r k|r k|r m|r|r value|r anew]; [| | | |destruct (Honest r m eq_refl)
+    | | | now apply crash_provenance]; cbn [step]; destruct (robots_ok l w I r) as (A & B & C & D).
+  - destruct (mint _ _ count) as [[first c]|] eqn:M; [|exact P]. cbn [fst].
+    apply mint_some in M as (-> & _); cbn; try lia. apply Commit; cbn [stored known]; [lia | | intros ? ? []].
     intros gene J. apply in_app_or in J as [J|J]; [now left | right; right].
     apply in_minted_marks in J as (Maker & L).
     assert (G : forall n id first, first <= counter gene < first + N.of_nat n ->
@@ -132,17 +147,10 @@ Proof.
     destruct (N.leb_spec (durable (memory (robots w r))) (stored (robots w r))); [|exact P].
     cbn [fst]. apply Commit; [lia | now left |]. intros m gene [<-|[]] J. cbn [genes] in J.
     apply selected in J as [_ J]. apply (gate_publishes l w r); auto.
-  - destruct (nth_error _ k) as [m|] eqn:K; [|exact P].
-    destruct (learn _ l _ m) as [new|] eqn:L; [|exact P]. cbn [fst].
-    apply (learn_some l) in L as (_ & S & E & _); [|apply (robots_ok l w I)].
-    apply nth_error_In in K. apply Commit; [lia | | intros ? ? []].
-    intros gene J. rewrite E in J. apply in_app_or in J as [J|J]; [now left | right].
-    destruct (Net m gene K J) as [G|(e & (Je & W) & Le)]; [now left | right].
-    exists e. split; [split; auto; apply in_or_app; now left|].
-    destruct (N.eq_dec (place e) r) as [|Ne]; [now left | right].
-    cbn [robots commit]. rewrite update_other by assumption. split; auto.
-    eexists. split; [apply in_or_app; right; now left|]. repeat split; auto.
-    apply (events_past l w I e Je).
+  - destruct (nth_error _ k) as [m|] eqn:K; [|exact P]. apply nth_error_In in K.
+    apply Hear; auto. intros gene. now apply Net.
+  - destruct (nth_error _ k) as [m|] eqn:K; [|exact P]. apply Hear; cbn; tauto.
+  - apply Commit; cbn; [lia | now left | intros ? ? []].
   - destruct (value <=? _); [|exact P]. cbn [fst]. apply Commit; cbn; [lia | now left | intros ? ? []].
 Qed.
 
@@ -178,4 +186,28 @@ Proof.
   destruct (genes_have_makers l commands gene Valid Honest Somewhere) as [|(e & M)]; [tauto|].
   destruct (minting l w e gene I M) as (E & A & _). destruct M as [J _].
   destruct (events_past l w I e J) as (_ & _ & L). rewrite E. cbn. lia.
+Qed.
+
+Theorem stamp_alone_decides : Claims.stamp_alone_decides.
+Proof.
+  intros l commands r k Valid Honest w. assert (I := run_invariant l Valid commands). fold w in I.
+  cbn [step]. destruct (nth_error (network w) k) as [m|] eqn:K; [|reflexivity].
+  assert (Covered : credible gene_clocks m = true).
+  { destruct (messages_were_sent l w I k m K) as (e & J & S).
+    assert (E := events_ok l w I e J). unfold event_ok in E. rewrite S in E.
+    destruct E as (_ & m' & K' & _ & Low). replace m' with m in * by congruence.
+    apply forallb_forall. intros gene G. apply N.ltb_lt, Low, G. }
+  assert (Mine : existsb (unmade (next (memory (robots w r))) r) (genes m) = false).
+  { destruct (existsb _ (genes m)) eqn:E; auto. apply existsb_exists in E as (gene & J & U).
+    unfold unmade in U. apply andb_prop in U as (M & L). apply N.eqb_eq in M. apply N.leb_le in L.
+    destruct (robots_ok l w I r) as (A & _).
+    assert (~ is_genesis l gene).
+    { intros G. apply in_genesis in G. unfold start in A. lia. }
+    assert (counter gene < next (memory (robots w (maker gene)))); [|rewrite M in *; lia].
+    apply own_mark_in_past; auto. right. exists m. split; auto. now apply nth_error_In in K. }
+  unfold hear, learn. rewrite Covered. cbn [credible gene_clocks genes stamp forallb gated].
+  unfold pass. rewrite Mine. cbn [existsb].
+  destruct (guard (robots w r)) as [g|].
+  - destruct (accept _ _ g (stamp m)) as [[c g']|]; reflexivity.
+  - destruct (merge _ _ _ (stamp m)); reflexivity.
 Qed.

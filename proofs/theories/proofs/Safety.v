@@ -97,16 +97,17 @@ Qed.
 Theorem exhaustion_is_reported : Claims.exhaustion_is_reported.
 Proof.
   intros l commands r count Valid w. assert (I := run_invariant l Valid commands). fold w in I.
-  destruct (robots_ok l w I r) as (A & B & _). rewrite <- mint_none by lia. cbn [step].
-  destruct (mint l _ count) as [[first c]|]; cbn; split; congruence.
+  destruct (robots_ok l w I r) as (A & B & _).
+  change (maximum l) with (maximum (own_limits l (robots w r))). rewrite <- mint_none by (cbn; lia).
+  cbn [step]. destruct (mint _ _ count) as [[first c]|]; cbn; split; congruence.
 Qed.
 
 Theorem mint_all_or_nothing : Claims.mint_all_or_nothing.
 Proof.
   intros l commands r count Valid w. assert (I := run_invariant l Valid commands). fold w in I.
   destruct (robots_ok l w I r) as (A & B & _). cbn [step].
-  destruct (mint l _ count) as [[first c]|] eqn:M; [right | now left].
-  apply mint_some in M as (-> & E & _); try lia.
+  destruct (mint _ _ count) as [[first c]|] eqn:M; [right | now left].
+  apply mint_some in M as (-> & E & _); cbn; try lia.
   eexists _, _. split; [reflexivity|]. cbn [robots commit]. rewrite update_same.
   split; [exact E|]. intros gene. cbn [history now]. split.
   - intros (e & (J & W) & T). cbn in J. apply in_app_or in J as [J|J].
@@ -128,8 +129,8 @@ Theorem new_gene_is_last : Claims.new_gene_is_last.
 Proof.
   intros l commands r count w' first old new Valid w. assert (I := run_invariant l Valid commands).
   fold w in I. destruct (robots_ok l w I r) as (A & B & C & D). cbn [step].
-  destruct (mint l _ count) as [[first' c]|] eqn:M; [|discriminate]. intros [= <- <-] K L.
-  apply mint_some in M as (-> & _); try lia. apply counter_decides. specialize (D old K). lia.
+  destruct (mint _ _ count) as [[first' c]|] eqn:M; [|discriminate]. intros [= <- <-] K L.
+  apply mint_some in M as (-> & _); cbn; try lia. apply counter_decides. specialize (D old K). lia.
 Qed.
 
 Theorem genesis_disjoint : Claims.genesis_disjoint.
@@ -141,11 +142,14 @@ Qed.
 
 Theorem refusal_changes_nothing : Claims.refusal_changes_nothing.
 Proof.
-  intros l w c. destruct c as [r count|r selection|r k|r m|r value|r]; cbn [step].
-  - destruct (mint l _ count) as [[? ?]|]; cbn; intuition discriminate.
-  - destruct (may_send _ _); cbn; intuition discriminate.
-  - destruct (nth_error _ k) as [m|]; [destruct (learn _ _ _ m)|]; cbn; intuition discriminate.
-  - destruct (learn _ _ _ m); cbn; intuition discriminate.
-  - destruct (value <=? _); cbn; intuition discriminate.
-  - cbn. intuition discriminate.
+  intros l w c. destruct c as [r count|r selection|r k|r k|r m|r|r value|r anew]; cbn [step].
+  - destruct (mint _ _ count) as [[? ?]|]; cbn; auto.
+  - destruct (may_send _ _); cbn; auto.
+  - destruct (nth_error _ k) as [m|]; [|reflexivity].
+    unfold hear. now destruct (learn _ _ _ _ m).
+  - destruct (nth_error _ k) as [m|]; [|reflexivity]. unfold hear. now destruct (learn _ _ _ _ _).
+  - unfold hear. now destruct (learn _ _ _ _ m).
+  - cbn. auto.
+  - destruct (value <=? _); cbn; auto.
+  - destruct (resume _ _ _); cbn; auto.
 Qed.

@@ -1,7 +1,7 @@
 (** For each claim an instance in which its hypotheses hold and its conclusion says something. *)
 From Coq Require Import NArith QArith List Sorting.Sorted.
-From GeneClocks Require Import Mark Alignment Clock Protocol Genome Recording.
-From GeneClocks Require Claims Trace Admission Wire.
+From GeneClocks Require Import Mark Alignment Clock Admission Protocol Genome Recording.
+From GeneClocks Require Claims Trace Wire.
 From GeneClocks.proofs Require Import Order Merge Arithmetic Invariant Safety Durability Bounds
   Provenance Allowance Chain Crossover NoFalseAlarms TraceSafety.
 Import ListNotations.
@@ -57,6 +57,9 @@ Proof. reflexivity. Qed.
 
 Definition small := Limits 20 3 8 1.  (* maximum, block, window, genesis marks *)
 
+(** A robot without a gate, which reserves as the fleet does. *)
+Definition plain := Settings 3 None.
+
 Example valid_witness : valid small.
 Proof. reflexivity. Qed.
 
@@ -75,16 +78,27 @@ Example reserve_is_a_block_ahead_witness :
   /\ reserve small (Clock 19 18) = Clock 19 20.
 Proof. repeat split. Qed.
 
+Example restore_admits_witness : restore small 10 13 = Some (Clock 10 13)
+  /\ map (fun state => restore small (fst state) (snd state)) [(0, 5); (6, 5); (20, 21)]
+     = [None; None; None].
+Proof. split; reflexivity. Qed.
+
+(** A store that was made for one genesis mark does not start a robot of a fleet that has five. *)
+Example restart_admits_witness : restart small 2 = Some (Clock 2 2)
+  /\ map (restart (Limits 20 3 8 5)) [0; 2; 5; 21] = [None; None; None; None]
+  /\ restart (Limits 20 3 8 5) 6 = Some (Clock 6 6).
+Proof. repeat split; reflexivity. Qed.
+
 (** ** A run with everything in it *)
 
 (** Robot 7 makes three genes, stores, and sends; 3 hears it twice, and once more after a crash
     that undid the first two; 9 makes genes unheard, loses them, and is sent a forgery. *)
 Definition story : list command :=
   [Mint 7 3; Send 7 []; Persist 7 8; Send 7 [Mark 2 7; Mark 4 7];
-   Mint 9 2; Crash 9; Mint 9 1;
-   Receive 3 0; Receive 3 0; Mint 3 1; Crash 3; Receive 3 0; Mint 3 3; Persist 3 8;
+   Mint 9 2; Crash 9 plain; Mint 9 1;
+   Receive 3 0; Receive 3 0; Mint 3 1; Crash 3 plain; Receive 3 0; Mint 3 3; Persist 3 8;
    Inject 9 (Message 4 [Mark 3 7]); Mint 9 1;
-   Send 3 [Mark 4 7; Mark 5 3; Mark 9 9]; Receive 7 1; Mint 7 1; Crash 7; Mint 7 1].
+   Send 3 [Mark 4 7; Mark 5 3; Mark 9 9]; Receive 7 1; Mint 7 1; Crash 7 plain; Mint 7 1].
 Definition told : world := after_all small story.
 
 Example story_made : made told
@@ -176,9 +190,10 @@ Proof. split; [reflexivity | in_list]. Qed.
 
 Example refusal_changes_nothing_witness :
   map (fun c => snd (do small told c))
-    [Receive 3 9; Inject 3 (Message 8 [Mark 8 7]); Inject 3 (Message 21 []);
-     Mint 3 20; Send 9 []; Persist 9 20]
-  = [Refused; Refused; Refused; Exhausted; NotDurable; NotReserved].
+    [Receive 3 9; Inject 3 (Message 8 [Mark 8 7]); Inject 3 (Message 21 []); Inject 9 (Message 20 []);
+     Mint 3 20; Send 9 []; Persist 9 21]
+  = [NoMessage; Refused NotCovered; Refused BeyondMaximum; Refused BeyondWindow;
+     Exhausted; NotDurable; OutOfRange].
 Proof. vm_compute. reflexivity. Qed.
 
 (** ** Durability *)
@@ -194,25 +209,48 @@ Example restart_is_safe_witness : exists e, makes told e (Mark 8 7) /\ place e =
   /\ let crashed := after_all small (firstn 20 story) in
      (now crashed <= time e)%nat
      /\ robots crashed 7 = Robot (Clock 8 8) 8
-          [Mark 1 0; Mark 2 7; Mark 3 7; Mark 4 7; Mark 4 7; Mark 5 3].
+          [Mark 1 0; Mark 2 7; Mark 3 7; Mark 4 7; Mark 4 7; Mark 5 3] 3 None.
 Proof.
   exists (event_at told 16). split; [made_here|]. split; [reflexivity|]. split.
   - vm_compute. repeat constructor.
   - vm_compute. reflexivity.
 Qed.
 
+(** Robot 3 has stored 8, and comes back to it although it stood at 6. *)
+Example crash_is_survived_witness :
+  let w := after_all small [Mint 3 4; Persist 3 8; Persist 3 4] in
+  memory (robots w 3) = Clock 6 9 /\ memory (robots (fst (do small w (Crash 3 plain))) 3) = Clock 8 8.
+Proof. split; reflexivity. Qed.
+
+Example snapshot_is_exact_witness : memory (robots told 9) = Clock 5 6
+  /\ restore small 5 6 = Some (Clock 5 6).
+Proof. vm_compute. split; reflexivity. Qed.
+
 (** ** Bounds *)
 
-(** The bound is met: a forged message moves the clock by the whole window, a crash by a block. *)
-Definition worst : list command := [Inject 7 (Message 10 []); Persist 7 13; Crash 7; Mint 7 2].
-Example counter_budget_witness : Claims.budget small worst = 15
-  /\ next (memory (robots (after_all small worst) 7)) = 15.
+(** The bound is met: a forged message moves the clock by the whole window, what is stored two beyond
+    need by two, and the crash by a block. *)
+Definition worst : list command := [Inject 7 (Message 10 []); Persist 7 15; Crash 7 plain; Mint 7 2].
+Example counter_budget_witness : Claims.budget_with_storing small worst = 17
+  /\ next (memory (robots (after_all small worst) 7)) = 17.
 Proof. vm_compute. split; reflexivity. Qed.
+
+(** No gene at all, but other numbers that the robot keeps by the same counter. *)
+Definition numbers_genomes := [Persist 7 8; Crash 7 plain; Persist 7 14; Crash 7 plain].
+Example storing_costs_witness : made (after_all small numbers_genomes) = []
+  /\ next (memory (robots (after_all small numbers_genomes) 7)) = 14
+  /\ Claims.budget_with_storing small numbers_genomes = start small + 6 + 3 + 6 + 3.
+Proof. vm_compute. repeat split. Qed.
+
+Definition reserving : list command := [Mint 7 1; Persist 7 6].
+Example stored_budget_witness : Claims.budget_with_storing small reserving = 3
+  /\ stored (robots (after_all small reserving) 7) = 6 /\ block_of (robots (after_all small reserving) 7) = 3.
+Proof. vm_compute. repeat split. Qed.
 
 (** As tight as it can be: the fleet has used all that the window allows. *)
 Definition frugal : list command := [Mint 7 8; Persist 7 13; Send 7 []].
 Example honest_never_refused_witness :
-  Claims.budget small frugal = start small + window small
+  Claims.budget_with_storing small frugal = start small + window small
   /\ snd (do small (after_all small frugal) (Receive 3 0)) = Accepted
   /\ next (memory (robots (fst (do small (after_all small frugal) (Receive 3 0))) 3)) = 10.
 Proof. vm_compute. repeat split. Qed.
@@ -233,29 +271,61 @@ Example own_mark_in_past_witness :
   /\ next (memory (robots (after_all small honest_story) 3)) = 8.
 Proof. split; [in_list | reflexivity]. Qed.
 
+(** Robots reserve as far ahead as each likes, and anew in each life. *)
+Example blocks_differ :
+  let w := after_all small [Crash 7 (Settings 6 None); Mint 7 1; Mint 9 1; Crash 9 (Settings 0 None); Mint 9 2] in
+  map (fun r => memory (robots w r)) [7; 9; 3] = [Clock 3 9; Clock 4 4; Clock 2 2].
+Proof. vm_compute. reflexivity. Qed.
+
+(** With its genes or without, a message is accepted alike, and refused alike. *)
+Example stamp_alone_decides_witness :
+  let w := after_all small (honest_story ++ [Mint 7 7; Persist 7 20; Send 7 [Mark 9 7]]) in
+  map (fun c => snd (do small w c)) [Receive 3 1; Overhear 3 1; Receive 9 2; Overhear 9 2]
+  = [Accepted; Accepted; Refused BeyondWindow; Refused BeyondWindow].
+Proof. vm_compute. reflexivity. Qed.
+
 (** ** The admission gate *)
 
-Definition paced := Admission.Policy 2 3 100.  (* initial, per cycle, ceiling *)
-Definition young := Clock 2 2.
+Definition paced := Policy 2 3 100.  (* initial, per cycle, ceiling *)
+Definition forged (at_stamp : N) : command := Inject 9 (Message at_stamp []).
 
 (** The bound is met: strangers take all that is earned as soon as it is, and no more. *)
-Definition besieged : list Admission.event :=
-  [Admission.Hears 5; Admission.Hears 4; Admission.Elapses; Admission.Hears 9; Admission.Hears 7;
-   Admission.Makes 1; Admission.Hears 9].
+Definition besieged : list command :=
+  [forged 5; forged 4; Elapse 9; Elapse 3; forged 9; forged 7; Mint 9 1; Mint 3 2; forged 9].
 Example allowance_bounds_clock_witness :
-  next (Admission.clock_of (Admission.live small paced young besieged)) = 8
-  /\ next young + Admission.own_genes besieged + Admission.earned paced besieged = 8.
-Proof. vm_compute. split; reflexivity. Qed.
+  let (began, w) := Claims.life small [] 9 3 paced besieged in
+  began = 2 /\ next (memory (robots w 9)) = 8
+  /\ began + Claims.own_genes 9 besieged + Claims.earned paced 9 besieged = 8.
+Proof. vm_compute. repeat split. Qed.
 
 (** What was too early is heard after two quiet cycles, and nothing above the line is. *)
-Definition quiet : list Admission.event := [Admission.Hears 4; Admission.Elapses; Admission.Elapses].
+Definition quiet : list command := [forged 4; Elapse 9; Elapse 9].
 Example allowance_admits_below_witness :
-  Admission.accept small (Admission.live small paced young [Admission.Hears 4]) 10 = None
-  /\ next young + Admission.earned paced quiet = 10
-  /\ Admission.accept small (Admission.live small paced young quiet) 10
-     = Some (Admission.Guarded (Clock 10 13) 0)
-  /\ Admission.accept small (Admission.live small paced young quiet) 11 = None.
+  let (began, w) := Claims.life small [] 9 3 paced quiet in
+  began + Claims.earned paced 9 quiet = 10
+  /\ snd (do small (snd (Claims.life small [] 9 3 paced [forged 4])) (forged 10))
+     = Refused BeyondAllowance
+  /\ snd (do small w (forged 10)) = Accepted /\ snd (do small w (forged 11)) = Refused BeyondAllowance.
 Proof. vm_compute. repeat split. Qed.
+
+(** As tight as it can be: what robot 7 has used is what the gate of robot 9 has earned. *)
+Definition lean := Limits 20 0 8 1.
+Definition heard_at_last : list command := [Mint 7 8; Persist 7 10; Send 7 [Mark 9 7]; Elapse 9; Elapse 9].
+Example gate_never_refuses_honest_witness :
+  let begins := [Crash 9 (Settings 0 (Some paced))] in
+  Claims.budget_with_storing lean (begins ++ heard_at_last) = 10
+  /\ start lean + window lean = 10 /\ 2 + Claims.earned paced 9 heard_at_last = 10
+  /\ snd (do lean (after_all lean (begins ++ heard_at_last)) (Receive 9 0)) = Accepted
+  /\ snd (do lean (after_all lean (begins ++ firstn 4 heard_at_last)) (Receive 9 0))
+     = Refused BeyondAllowance.
+Proof. vm_compute. repeat split. Qed.
+
+(** A mark of robot 9, which has made none: behind a gate it is refused, without one believed. *)
+Example conflict_is_refused_witness :
+  let m := Message 4 [Mark 2 9] in
+  snd (do small (snd (Claims.life small [] 9 3 paced [])) (Inject 9 m)) = Refused IdentityConflict
+  /\ snd (do small (init small) (Inject 9 m)) = Accepted.
+Proof. split; reflexivity. Qed.
 
 (** ** Genomes *)
 
@@ -265,7 +335,7 @@ Definition family : list operation :=
   [AddGenes 7 0 3; Store 7 8; Broadcast 7 1;
    Deliver 3 0; Deliver 9 0; AddGenes 3 1 1; AddGenes 9 1 1; AddGenes 3 2 1; Store 3 8; Broadcast 3 3;
    Deliver 9 1; Recombine 9 2 3 (fun _ _ => true); Recombine 9 3 2 (fun _ gene => counter gene <? 6);
-   Store 9 5; Fail 9; Deliver 9 1; AddGenes 9 2 1].
+   Store 9 5; Fail 9 plain; Deliver 9 1; AddGenes 9 2 1].
 Definition family_genome := [Mark 1 0; Mark 2 7; Mark 3 7; Mark 4 7].
 Definition thirds := family_genome ++ [Mark 5 3; Mark 6 3].
 Definition ninths := thirds ++ [Mark 7 9].

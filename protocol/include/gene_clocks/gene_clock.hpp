@@ -125,13 +125,15 @@ public:
 
     /// A clock that goes on after a crash, from the last `durable_needed()` that reached stable
     /// storage: no mark is issued twice. Genes kept across the crash whose counter is not below
-    /// `stored` must be dropped. Nullopt where no clock with these limits can have stored it.
+    /// `stored` must be dropped. Nullopt where no clock with these limits, above these genesis
+    /// marks, can have stored it: a store that was made for fewer of them would lead below them.
     [[nodiscard]] static constexpr std::optional<BasicGeneClock> restart(RobotId robot,
                                                                          Counter stored,
+                                                                         Counter genesis_count,
                                                                          Limits limits = {}) {
         BasicGeneClock clock{limits, robot};
         if (robot == genesis_robot ||
-            !kernel::gene_clocks_restart(&clock.state_, &clock.limits_, stored)) {
+            !kernel::gene_clocks_restart(&clock.state_, &clock.limits_, genesis_count, stored)) {
             return std::nullopt;
         }
         return clock;

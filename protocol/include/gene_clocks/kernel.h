@@ -178,7 +178,7 @@ GENE_CLOCKS_FUNCTION bool gene_clocks_equal(GENE_CLOCKS_OF(gene_clocks_mark) a,
 
 /* Takes up a state: a stored one, or the one that another clock was left in. Returns false, and
  * changes nothing, where it breaks the invariant of gene_clocks_state. */
-/*@ // Coq: no step; start and restart go through it
+/*@ // Coq: Clock.restore
     requires \valid(state) && \valid_read(limits) && \separated(state, limits);
     assigns *state;
     ensures \result <==> 1 <= next <= durable <= limits->maximum;
@@ -211,17 +211,19 @@ GENE_CLOCKS_FUNCTION bool gene_clocks_start(GENE_CLOCKS_OF(gene_clocks_state) * 
 }
 
 /* Goes on after a crash, of which only the durable counter is left: no counter below it is used
- * again. Returns false, and changes nothing, where no clock with these limits stored it. */
+ * again. Returns false, and changes nothing, where no clock of this deployment stored it: among its
+ * genesis marks, as in a store that was made for fewer of them, or beyond its maximum. */
 /*@ // Coq: Clock.restart
     requires \valid(state) && \valid_read(limits) && \separated(state, limits);
     assigns *state;
-    ensures \result <==> 1 <= stored <= limits->maximum;
+    ensures \result <==> genesis_count < stored <= limits->maximum;
     ensures \result ==> usable(state, limits) && state->next == state->durable == stored;
     ensures !\result ==> *state == \old(*state); */
 GENE_CLOCKS_FUNCTION bool gene_clocks_restart(GENE_CLOCKS_OF(gene_clocks_state) * state,
                                               const GENE_CLOCKS_OF(gene_clocks_limits) * limits,
+                                              gene_clocks_counter genesis_count,
                                               gene_clocks_counter stored) {
-    return gene_clocks_restore(state, limits, stored, stored);
+    return stored > genesis_count && gene_clocks_restore(state, limits, stored, stored);
 }
 
 /* Raises `durable` to cover `next`, a block ahead where there is room. */
@@ -318,7 +320,7 @@ GENE_CLOCKS_FUNCTION bool gene_clocks_covers(gene_clocks_counter stamp, GENE_CLO
  * yet, or `size`. Such a gene proves that another robot has the same id, that this one's storage
  * was set back, or that the message is forged. To be asked before gene_clocks_observe, which would
  * hide the difference. */
-/*@ // Coq: Claims.own_mark_in_past
+/*@ // Coq: Admission.unmade
     requires readable(genome, size);
     assigns \nothing;
     ensures 0 <= \result <= size;

@@ -192,7 +192,7 @@ TEST_F(SealedFrames, NeverHaveANumberAgainAfterACrash) {
             stored = sealer.durable_needed();
         }
     }
-    Sealer restarted{key_of(1), *GeneClock::restart(RobotId{7}, stored, limits)};
+    Sealer restarted{key_of(1), *GeneClock::restart(RobotId{7}, stored, 0, limits)};
     for (int i = 0; i < 20; ++i) {
         EXPECT_EQ(outcome(opener_, seal(restarted, frame_of(RobotId{7}))), "opened");
     }

@@ -258,7 +258,7 @@ TEST_F(FileStoreTest, ARestartedClockGoesOnAboveAllThatItSent) {
     }
     auto durable = store();
     ASSERT_TRUE(durable.open());
-    auto clock = GeneClock::restart(robot, durable.stored());
+    auto clock = GeneClock::restart(robot, durable.stored(), 0);
     ASSERT_TRUE(clock);
     EXPECT_LT(before, clock->mint());
 }

@@ -54,7 +54,7 @@ enum class Habit { stores_first, sends_first };
     auto status = store.open();
     if (status.error == StorageError::missing) status = store.create(1);
     if (!status) die("the store cannot be opened\n");
-    auto clock = GeneClock::restart(robot, store.stored(), {.block = block});
+    auto clock = GeneClock::restart(robot, store.stored(), 0, {.block = block});
     if (!clock) die("the clock does not come back\n");
 
     for (;;) {

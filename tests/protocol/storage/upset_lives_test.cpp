@@ -45,7 +45,7 @@ void live(const std::string& folder, std::uint64_t block, Sent& sent) {
     auto status = store.open();
     if (status.error == StorageError::missing) status = store.create(1);
     if (!status) return;
-    auto clock = GeneClock::restart(robot, store.stored(), {.block = block});
+    auto clock = GeneClock::restart(robot, store.stored(), 0, {.block = block});
     for (std::size_t gene = 0; gene < genes_of_a_life; ++gene) {
         const auto mark = clock->mint();
         if (!store.store(clock->durable_needed())) continue;

@@ -17,17 +17,21 @@ namespace gene_clocks::neat {
 /// once in many genes. Every message passes an admission gate, genes and all.
 ///
 /// The robot's genomes are numbered by the same stored counter, from where it stood at the start,
-/// so that no number is sent in two lives (modulo 2³², since a GenomeId has no more).
+/// so that no number is sent in two lives (modulo 2³², since a GenomeId has no more). That may move
+/// the clock at a restart, by at most one counter for each genome that was sent and two blocks; the
+/// other robots' admission policies have to leave room for it.
 template <CounterStorage Storage>
 class DurableGeneClockSource final : public InnovationSource {
 public:
     /// Goes on from what `storage` holds: the counter of an earlier life, or that with which it was
-    /// created, which is genesis_mark_count() + 1. nullptr where no clock with these limits can
-    /// have stored that, as where `storage` is not open. `storage` must outlive the source.
+    /// created, which is genesis_count + 1. nullptr where no clock with these limits, above so many
+    /// genesis marks (genesis_mark_count()), can have stored that, as where `storage` is not open
+    /// or was created for fewer of them. `storage` must outlive the source.
     static std::unique_ptr<DurableGeneClockSource> restart(RobotId robot, Storage& storage,
+                                                           std::uint64_t genesis_count,
                                                            GeneClock::Limits limits = {},
                                                            AdmissionGate::Policy admission = {}) {
-        auto clock = GeneClock::restart(robot, storage.stored(), limits);
+        auto clock = GeneClock::restart(robot, storage.stored(), genesis_count, limits);
         if (!clock) return nullptr;
         return std::unique_ptr<DurableGeneClockSource>(
             new DurableGeneClockSource(*std::move(clock), storage, limits, admission));
