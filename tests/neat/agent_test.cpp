@@ -4,6 +4,7 @@
 #include <cmath>
 #include <gene_clocks/neat/agent.hpp>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "tests/neat/sample_genomes.hpp"
@@ -507,6 +508,33 @@ TEST_F(AgentTest, MatesOnlyTwoDifferentGenomes) {
     const double expected = 4.0 / 9.0;
     EXPECT_NEAR(mated / double{births}, expected,
                 5 * std::sqrt(expected * (1 - expected) / births));
+}
+
+TEST_F(AgentTest, EachParentHasItsOwnFitness) {
+    // The active genome (100) and a larger one: the child has the genes of the fitter of the two,
+    // whichever is drawn first. Were they equally fit, it would be the smaller one's.
+    settings_.p_mate = 1.0;
+    settings_.second_parent = SecondParent::population;
+    for (const float energy : {60.0f, 140.0f}) {
+        int from_larger = 0;
+        std::set<GenomeId> first;
+        for (std::uint32_t robot = 11; robot <= 60; ++robot) {
+            Agent agent = make_agent(robot);
+            Message large = message(0, 9.0f, energy, 100);
+            auto genome = std::make_shared<Genome>(*large.genome);
+            add_hidden(*genome, mark(90, 9));
+            add_gene(*genome, mark(91, 9), {genesis(1), mark(90, 9), false}, 1.0f);
+            add_gene(*genome, mark(92, 9), {mark(90, 9), genesis(inputs + 1), false}, 1.0f);
+            large.genome = std::move(genome);
+            ASSERT_EQ(agent.receive(large), Reception::accepted);
+            const Birth birth = agent.replace(0.0);
+            ASSERT_TRUE(birth.mated);
+            first.insert({birth.first_parent->id.robot == RobotId{9} ? RobotId{9} : RobotId{1}, 0});
+            from_larger += agent.active().connections() == large.genome->connections();
+        }
+        EXPECT_EQ(first.size(), 2u) << "each must be the first parent at times";
+        EXPECT_EQ(from_larger, energy > 100.0f ? 50 : 0);
+    }
 }
 
 TEST_F(AgentTest, MatesWhomTheSettingsSay) {

@@ -71,6 +71,26 @@ TEST_P(NeighbourIndexTest, NobodyIsListedTwiceOrIsItsOwnNeighbour) {
 
 INSTANTIATE_TEST_SUITE_P(Robots, NeighbourIndexTest, testing::Values(1, 2, 3, 50, 300));
 
+TEST(NeighbourIndex, SeesWhoComesStraightOnAtFullSpeed) {
+    // Whatever the distance and the age of the list is at which two begin to approach.
+    for (int distance_px = 20; distance_px < 160; distance_px += 2) {
+        for (int wait_cycles = 0; wait_cycles < 10; ++wait_cycles) {
+            std::vector<float> x{20.0f, 20.0f + static_cast<float>(distance_px)};
+            const std::vector<float> y{50.0f, 50.0f};
+            NeighbourIndex index(2, width_px, height_px, reach_px, speed_px);
+            for (int i = 0; i < wait_cycles; ++i) index.update(x, y);
+            while (x[0] < x[1]) {
+                index.update(x, y);
+                x[0] += speed_px;
+                x[1] -= speed_px;
+                if (std::abs(x[1] - x[0]) >= reach_px) continue;
+                ASSERT_EQ(index.near(0).size(), 1u) << distance_px << ' ' << wait_cycles;
+                ASSERT_EQ(index.near(1).size(), 1u) << distance_px << ' ' << wait_cycles;
+            }
+        }
+    }
+}
+
 TEST(NeighbourIndex, ListsFewerThanAllWhereThereIsRoom) {
     std::vector<float> x, y;
     for (int i = 0; i < 100; ++i) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -131,6 +132,84 @@ TEST_F(WorldTest, RaysMeetWhatIsThere) {
     EXPECT_GT(tally.items, 100);
     EXPECT_GT(tally.walls, 1000);
     EXPECT_LE(tally.disagree, tally.rays / 400) << "of " << tally.rays;
+}
+
+/// How far along a ray a diamond is met, in double precision; infinity where it is not.
+double diamond_along(double dx, double dy, double x, double y, double radius) {
+    // Its four edges, as lines u = ±radius and v = ±radius with u = x + y and v = y − x.
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const double side : {-radius, radius}) {
+        const double at_u = (x + y + side) / (dx + dy);
+        const double at_v = (y - x + side) / (dy - dx);
+        if (at_u > 0.0 && std::abs(at_u * (dy - dx) - (y - x)) <= radius) {
+            nearest = std::min(nearest, at_u);
+        }
+        if (at_v > 0.0 && std::abs(at_v * (dx + dy) - (x + y)) <= radius) {
+            nearest = std::min(nearest, at_v);
+        }
+    }
+    return nearest;
+}
+
+TEST_F(WorldTest, RobotsSeeEachOtherInEveryCycleHoweverFastTheyMeet) {
+    // A wide arena, so that lists of neighbours do not hold everybody; all go straight on at full
+    // speed and turn only where they collide.
+    arena_ = {"wide", 420.0, 420.0, 5.0, 5.0, 5.0, 5.0, {}};
+    set_robots(70);
+    World world = make_world();
+    std::vector<float> rotations(world.robots());
+    const std::vector<float> translations(world.robots(), 1.0f);
+    int seen = 0, met = 0;
+    for (int cycle = 0; cycle < 400; ++cycle) {
+        for (std::size_t i = 0; i < world.robots(); ++i) {
+            const Senses& senses = world.senses(i);
+            bool meets = false;
+            bool is_close_call = false;
+            for (std::size_t j = 0; j < world.robots(); ++j) {
+                if (j == i) continue;
+                const double x = world.x_px()[j] - world.x_px()[i];
+                const double y = world.y_px()[j] - world.y_px()[i];
+                const double apart_px = std::hypot(x, y);
+                is_close_call |= std::abs(apart_px - 2 * (radius_px + 2.0)) < 1e-3;
+                meets |= apart_px < 2 * (radius_px + 2.0);
+            }
+            EXPECT_TRUE(senses.meets_robot == meets || is_close_call) << cycle << ' ' << i;
+            met += meets;
+            for (std::size_t ray = 0; ray < ray_count; ++ray) {
+                const double angle = std::atan2(world.heading_y()[i], world.heading_x()[i]) +
+                                     (static_cast<double>(ray) - 2.0) * std::acos(-1.0) / 4.0;
+                const double dx = std::cos(angle);
+                const double dy = std::sin(angle);
+                // Who is met without any doubt: also if it were a little smaller, and all others
+                // and the frame a little nearer.
+                double nearest = range_px + radius_px - 0.05;
+                std::int32_t who = -1;
+                bool is_certain = true;
+                for (std::size_t j = 0; j < world.robots(); ++j) {
+                    if (j == i) continue;
+                    const double x = world.x_px()[j] - world.x_px()[i];
+                    const double y = world.y_px()[j] - world.y_px()[i];
+                    const double at = diamond_along(dx, dy, x, y, radius_px - 0.02);
+                    const double at_least = diamond_along(dx, dy, x, y, radius_px + 0.02);
+                    is_certain &= std::isinf(at) == std::isinf(at_least);
+                    if (at < nearest) nearest = at, who = static_cast<std::int32_t>(j);
+                }
+                const double hit_x = world.x_px()[i] + nearest * dx;
+                const double hit_y = world.y_px()[i] + nearest * dy;
+                if (!is_certain || who < 0 || naive::is_in_frame(arena_, hit_x, hit_y)) continue;
+                ASSERT_EQ(senses.robot[ray], who) << cycle << ' ' << i << ' ' << ray;
+                ++seen;
+            }
+        }
+        const auto x_before = std::vector<float>(world.x_px().begin(), world.x_px().end());
+        world.move(translations, rotations, order_);
+        for (std::size_t i = 0; i < world.robots(); ++i) {
+            rotations[i] = world.x_px()[i] == x_before[i] ? 0.7f : 0.0f;
+        }
+        world.sense();
+    }
+    EXPECT_GT(seen, 2000);
+    EXPECT_GT(met, 300);
 }
 
 TEST_F(WorldTest, ARobotIsHeardWithinTheRangeOfTheRadioOnly) {
