@@ -23,9 +23,9 @@ using nlohmann::ordered_json;
 constexpr std::string_view page_folder = "replay/page/";
 
 /// In the order in which they build upon each other.
-constexpr std::array<std::string_view, 7> scripts{
-    "streams.js",       "recording.js",      "palette.js", "arena_view.js",
-    "timeline_view.js", "genealogy_view.js", "player.js"};
+constexpr std::array<std::string_view, 9> scripts{
+    "streams.js",       "recording.js",      "palette.js",   "svg_context.js", "arena_view.js",
+    "timeline_view.js", "genealogy_view.js", "take_away.js", "player.js"};
 
 /// Columns rather than objects: a run creates thousands of genes. Counters are text, for hashes
 /// are greater than JavaScript's whole numbers.

@@ -28,6 +28,14 @@ class ArenaView {
     this.drawWalls(context);
   }
 
+  /** What `draw` shows, as an SVG file. */
+  svg(scene, title) {
+    const context = new SvgContext(this.canvas.clientWidth, this.canvas.clientHeight);
+    context.scaled(this.scale, () => this.drawWalls(context));
+    this.drawThings(context, scene);
+    return context.text(title);
+  }
+
   drawWalls(context) {
     const { size_px: [width, height], frame_px: frame, walls_px: walls } = this.recording.arena;
     context.fillStyle = this.palette.wall;
@@ -62,28 +70,31 @@ class ArenaView {
 
   /** `colours`: one for each robot. `hollow`: null, or whether each is drawn in outline. `lit`: null,
    *  or whether each carries the chosen gene. */
-  draw({ position, colours, hollow, lit, messages, marked }) {
+  draw(scene) {
     const context = this.context;
-    this.placeRobots(position);
     context.save();
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.drawImage(this.backdrop, 0, 0);
     context.restore();
+    this.drawThings(context, scene);
+  }
+
+  drawThings(context, { position, colours, hollow, lit, messages, marked }) {
+    this.placeRobots(position);
     const frame = Math.floor(position);
-    this.drawItems(frame);
-    if (messages) this.drawMessages(position, lit);
+    this.drawItems(context, frame);
+    if (messages) this.drawMessages(context, position, lit);
     for (const wanted of lit ? [false, true] : [null]) {
       for (let robot = 0; robot < this.recording.robots; ++robot) {
         if (lit && lit[robot] !== wanted) continue;
-        this.drawRobot(robot, frame, colours[robot], Boolean(lit) && wanted, Boolean(hollow) && hollow[robot]);
+        this.drawRobot(context, robot, frame, colours[robot], Boolean(lit) && wanted, Boolean(hollow) && hollow[robot]);
       }
     }
-    for (const { robot, isKept } of marked) this.drawMarker(robot, isKept);
+    for (const { robot, isKept } of marked) this.drawMarker(context, robot, isKept);
   }
 
-  drawItems(frame) {
+  drawItems(context, frame) {
     const { frames, items } = this.recording;
-    const context = this.context;
     const scale = frames.placePx * this.scale;
     const radius = this.recording.data.item_radius_px * this.scale;
     context.fillStyle = this.palette.item;
@@ -95,9 +106,8 @@ class ArenaView {
     }
   }
 
-  drawMessages(position, lit) {
+  drawMessages(context, position, lit) {
     const { frames, robots } = this.recording;
-    const context = this.context;
     const frame = Math.floor(position);
     context.lineWidth = 1;
     for (let heard = Math.max(0, frame - FADING_FRAMES + 1); heard <= frame; ++heard) {
@@ -118,8 +128,7 @@ class ArenaView {
   }
 
   /** A diamond, as the simulated body is, with a nose towards its heading. */
-  drawRobot(robot, frame, colour, isLit, isHollow) {
-    const context = this.context;
+  drawRobot(context, robot, frame, colour, isLit, isHollow) {
     const { frames, robots } = this.recording;
     const x = this.places[2 * robot];
     const y = this.places[2 * robot + 1];
@@ -150,8 +159,7 @@ class ArenaView {
     if (isHollow) context.stroke();
   }
 
-  drawMarker(robot, isKept) {
-    const context = this.context;
+  drawMarker(context, robot, isKept) {
     const x = this.places[2 * robot];
     const y = this.places[2 * robot + 1];
     context.strokeStyle = this.palette.ink;

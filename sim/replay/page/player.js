@@ -3,6 +3,7 @@
 
 const SPEEDS = [10, 25, 50, 100, 250, 500, 1000, 2500, 5000];  // cycles per second
 const LOST_GENES = 100;
+const FLUENT_PICTURES_PER_SECOND = 24;
 const MARKINGS = {
   'gene-clock': 'gene clocks', 'gene-clock-no-merge': 'gene clocks that do not merge',
   timestamp: 'timestamps', 'timestamp-drift': 'timestamps of drifting clocks',
@@ -20,6 +21,27 @@ function make(tag, attributes = {}, ...children) {
   return element;
 }
 
+/** Says how many pictures a second the reader sees, where they are fewer than an eye takes for movement. */
+class PictureRate {
+  constructor(place) {
+    this.place = place;
+    this.since = null;
+  }
+
+  count(now) {
+    if (this.since === null) [this.since, this.pictures] = [now, 0];
+    ++this.pictures;
+    if (now - this.since < 1000) return;
+    this.show(1000 * this.pictures / (now - this.since));
+    this.since = null;
+  }
+
+  show(rate) {
+    if (rate === null) this.since = null;
+    this.place.textContent = rate === null || rate >= FLUENT_PICTURES_PER_SECOND ? '' : `${Math.round(rate)} pictures a second: skips frames`;
+  }
+}
+
 class Player {
   constructor(recording) {
     this.recording = recording;
@@ -31,6 +53,7 @@ class Player {
     this.pointedAt = null;
     this.kept = null;
     this.colour = 'lineage';
+    this.rate = new PictureRate(byId('rate'));
     this.arena = new ArenaView(byId('arena'), recording, this.palette);
     this.timeline = new TimelineView(byId('timeline'), recording, this.palette);
     this.genealogy = new GenealogyView(byId('tree'), recording, this.palette, (gene) => this.choose(gene));
@@ -40,15 +63,26 @@ class Player {
     this.listenToTime();
     this.listenToView();
     this.listenToArena();
+    this.takeAway = new TakeAway(this);
     this.listenToKeys();
     const address = location.hash;
-    this.choose(null);
+    // A link says all that it shows.
+    if (address.length > 1) this.choose(null);
+    else this.openOnSomething();
     this.readAddress(address);
     this.draw();
   }
 
   get cycle() {
     return this.recording.frames.cycleAt(this.position);
+  }
+
+  /** The end of the run, with the gene lit that most robots carry; of several, the newest. */
+  openOnSomething() {
+    const most = this.recording.data.genealogy.reduce(
+      (best, row) => (best === null || row.carriers >= best.carriers ? row : best), null);
+    this.position = this.recording.frames.count - 1;
+    this.choose(most === null ? null : most.gene);
   }
 
   // Words
@@ -211,6 +245,8 @@ class Player {
     byId('play').setAttribute('aria-label', wanted ? 'Pause' : 'Play');
     byId('play').classList.toggle('playing', wanted);
     if (!wanted) {
+      this.takeAway.playingEnded();
+      this.rate.show(null);
       this.writeAddress();
       return;
     }
@@ -221,6 +257,7 @@ class Player {
       // A page in the background is not shown; time does not jump when it comes back.
       const seconds = before === null ? 0 : Math.min((now - before) / 1000, 0.1);
       before = now;
+      this.rate.count(now);
       this.goToCycle(this.cycle + seconds * this.speed);
       if (this.position >= this.recording.frames.count - 1) this.play(false);
       else requestAnimationFrame(tick);
@@ -271,12 +308,25 @@ class Player {
       this.draw();
     });
     canvas.addEventListener('click', (event) => this.keep(at(event)));
+    const number = byId('robot-number');
+    number.max = this.recording.robots;
+    number.addEventListener('input', () => {
+      const robot = Number(number.value);
+      if (number.value === '') this.keep(null);
+      else if (number.validity.valid && robot - 1 !== this.kept) this.keep(robot - 1);
+    });
   }
 
   keep(robot) {
     this.kept = robot === this.kept ? null : robot;
+    byId('robot-number').value = this.kept === null ? '' : this.kept + 1;
     this.draw();
     this.writeAddress();
+  }
+
+  keepNext(step) {
+    const { robots } = this.recording;
+    this.keep(this.kept === null ? (step > 0 ? 0 : robots - 1) : (this.kept + step + robots) % robots);
   }
 
   listenToKeys() {
@@ -290,9 +340,11 @@ class Player {
       '+': () => this.changeSpeed(1),
       n: () => this.chooseNext(1),
       p: () => this.chooseNext(-1),
+      r: (event) => this.keepNext(event.shiftKey ? -1 : 1),
       m: () => byId('messages').click(),
+      s: () => this.takeAway.saveSvg(),
       Escape: () => {
-        this.kept = null;
+        this.keep(null);
         this.choose(null);
       },
     };
@@ -300,7 +352,7 @@ class Player {
       if (event.ctrlKey || event.altKey || event.metaKey) return;
       // Elements that have their own use for a key keep it.
       const on = event.target;
-      if (on.matches('input[type=search], select')) return;
+      if (on.matches('input[type=search], input[type=number], select')) return;
       if (event.key === ' ' && on.matches('button, input, summary, a')) return;
       const action = actions[event.key] ?? actions[event.key.toLowerCase()];
       if (!action) return;
@@ -318,7 +370,7 @@ class Player {
       this.colour = byId('colour').value = colour;
     }
     const robot = Number(wanted.get('robot'));
-    if (Number.isInteger(robot) && robot >= 1 && robot <= this.recording.robots) this.kept = robot - 1;
+    if (Number.isInteger(robot) && robot >= 1 && robot <= this.recording.robots && robot - 1 !== this.kept) this.keep(robot - 1);
     if (wanted.has('gene')) this.choose(this.recording.find(wanted.get('gene')));
     const cycle = Number(wanted.get('cycle') ?? NaN);
     if (Number.isFinite(cycle)) this.goToCycle(cycle);
@@ -340,6 +392,18 @@ class Player {
   // Drawing
 
   draw() {
+    const cycle = this.cycle;
+    const scene = this.scene();
+    this.arena.draw(scene);
+    this.timeline.draw(cycle);
+    this.genealogy.draw(cycle);
+    this.showTime(cycle, scene.sets);
+    this.showLegend(scene.sets, scene.lit);
+    this.showRobot(scene.sets);
+  }
+
+  /** What the arena shows now; `sets`: the gene set of each robot. */
+  scene() {
     const { recording, palette } = this;
     const cycle = this.cycle;
     const sets = Array.from({ length: recording.robots }, (_, robot) => recording.setOf(robot, cycle));
@@ -350,12 +414,7 @@ class Player {
     const hollow = this.colour === 'energy' || lit ? null : sets.map((set) => recording.newestOf(set) === null);
     const colours = lit ? lit.map((is) => (is ? palette.chosen : palette.none))
       : sets.map((set, robot) => this.colourOfRobot(robot, set, cycle));
-    this.arena.draw({ position: this.position, colours, hollow, lit, marked, messages: byId('messages').checked });
-    this.timeline.draw(cycle);
-    this.genealogy.draw(cycle);
-    this.showTime(cycle, sets);
-    this.showLegend(sets, lit);
-    this.showRobot(sets);
+    return { position: this.position, sets, colours, hollow, lit, marked, messages: byId('messages').checked };
   }
 
   colourOfRobot(robot, set, cycle) {

@@ -18,6 +18,7 @@ import tempfile
 import unittest
 import zlib
 from pathlib import Path
+from xml.etree import ElementTree
 
 from browser import Browser, find_browser
 
@@ -99,7 +100,7 @@ class PageTest(unittest.TestCase):
     def setUp(self):
         self.address, self.genealogy = sample_page()
         self.browser = browser()
-        self.browser.open(self.address)
+        self.browser.open(f"{self.address}#cycle=0")
 
     def tearDown(self):
         self.browser.frame()
@@ -182,7 +183,7 @@ class TimeTest(PageTest):
         self.browser.click(x, y)
         self.browser.frame()
         self.assertAlmostEqual(self.cycle(), CYCLES / 2, delta=CYCLES / 50)
-        self.assertNotEqual(self.picture_of("#arena"), before)
+        self.assertTrue(self.picture_of("#arena") != before)
 
     def test_the_curve_can_be_dragged(self):
         x, y = self.browser.middle_of("#timeline")
@@ -297,19 +298,97 @@ class GenesTest(PageTest):
             self.browser.evaluate(f"(() => {{ const c = document.querySelector('#colour'); c.value = '{colour}';"
                                   " c.dispatchEvent(new Event('change')); })()")
             pictures.append(self.picture_of("#arena"))
-        self.assertNotEqual(pictures[0], pictures[1])
-        self.assertNotEqual(pictures[1], pictures[2])
+        self.assertTrue(pictures[0] != pictures[1])
+        self.assertTrue(pictures[1] != pictures[2])
 
     def test_messages_can_be_switched_off(self):
         self.browser.press("End")
         shown = self.picture_of("#arena")
         self.browser.click_on("#messages")
-        self.assertNotEqual(self.picture_of("#arena"), shown)
+        self.assertTrue(self.picture_of("#arena") != shown)
+
+
+class OpeningTest(PageTest):
+    def setUp(self):
+        super().setUp()
+        self.browser.open(self.address)
+
+    def test_opens_on_the_end_with_the_most_carried_gene_lit(self):
+        self.assertEqual(self.cycle(), CYCLES)
+        most = max(int(row["carriers"]) for row in self.genealogy)
+        self.assertIn(f"Now in {most} of {ROBOTS} robots", self.text("#chosen"))
+        self.assertGreater(self.count(self.picture_of("#arena"), "#d55e00"), 15 * most)
+
+    def test_a_link_shows_what_it_says_and_no_more(self):
+        self.browser.open(f"{self.address}#cycle=100")
+        self.assertEqual(self.cycle(), 100)
+        self.assertIn("Choose a gene", self.text("#chosen"))
+
+    def test_playing_begins_anew_at_the_end(self):
+        self.browser.press(" ", text=" ")
+        self.browser.evaluate("new Promise((done) => { const look = () => "
+                              "player.isPlaying && player.cycle < 4000 ? done() : setTimeout(look, 10); look(); })")
+        self.browser.press(" ", text=" ")
+
+
+class RobotsByKeyboardTest(PageTest):
+    def test_a_key_goes_through_the_robots(self):
+        for shift, number in ((False, 1), (False, 2), (True, 1), (True, ROBOTS), (False, 1)):
+            self.browser.press("R" if shift else "r", shift=shift)
+            self.assertIn(f"Number{number}, kept", self.text("#robot"))
+            self.assertEqual(self.browser.evaluate("document.querySelector('#robot-number').value"), str(number))
+        self.browser.press("Escape")
+        self.assertIn("Point at a robot", self.text("#robot"))
+
+    def test_a_number_can_be_typed(self):
+        self.browser.click_on("#robot-number")
+        self.browser.send("Input.insertText", text=str(ROBOTS))
+        self.assertIn(f"Number{ROBOTS}, kept", self.text("#robot"))
+        self.browser.send("Input.insertText", text="0")  # there is no robot 400
+        self.assertIn(f"Number{ROBOTS}, kept", self.text("#robot"))
+
+
+class TakeAwayTest(PageTest):
+    def saved(self, selector):
+        """Clicks; the name and the text of the file that the page hands over."""
+        self.browser.evaluate(
+            "window.saved = new Promise((done) => { window.download = (blob, name) =>"
+            " blob.arrayBuffer().then((bytes) => done([name, blob.type,"
+            " String.fromCharCode(...new Uint8Array(bytes).slice(0, 100000))])); }); 0")
+        self.browser.click_on(selector)
+        return self.browser.evaluate("window.saved")
+
+    def test_the_picture_as_svg(self):
+        self.browser.press("r")
+        name, kind, text = self.saved("#save-svg")
+        self.assertEqual((name, kind), ("navigation-gene-clock-cycle-0.svg", "image/svg+xml"))
+        picture = ElementTree.fromstring(text.encode("latin-1"))
+        shapes = [node.get("d") for node in picture.iter("{http://www.w3.org/2000/svg}path")]
+        diamonds = [path for path in shapes if path.endswith("Z") and path.count("L") == 3]
+        self.assertEqual(len(set(diamonds)), ROBOTS)
+        self.assertEqual(len(diamonds), 2 * ROBOTS)  # without new genes: filled, and outlined
+        self.assertIn("1", [node.text for node in picture.iter("{http://www.w3.org/2000/svg}text")])
+        walls = self.browser.evaluate("player.recording.arena.walls_px.length")
+        group = picture.find("{http://www.w3.org/2000/svg}g")
+        self.assertEqual(len(group.findall("{http://www.w3.org/2000/svg}path")), walls)
+
+    def test_the_picture_as_png(self):
+        name, kind, text = self.saved("#save-png")
+        self.assertEqual((name, kind), ("navigation-gene-clock-cycle-0.png", "image/png"))
+        self.assertTrue(text.startswith("\x89PNG"))
+
+    def test_a_film(self):
+        self.browser.open(f"{self.address}#cycle={CYCLES - 200}")
+        name, kind, text = self.saved("#film")
+        self.assertEqual((name, kind), (f"navigation-gene-clock-cycle-{CYCLES - 200}.webm", "video/webm"))
+        self.assertTrue(text.startswith("\x1a\x45\xdf\xa3"))  # EBML, which WebM begins with
+        self.assertGreater(len(text), 1000)
+        self.assertEqual(self.cycle(), CYCLES)
 
 
 class OtherScreensTest(PageTest):
     def test_a_phone_has_no_need_to_scroll_sideways(self):
-        self.browser.open(self.address, width=360, height=740)
+        self.browser.open(f"{self.address}#cycle=0", width=360, height=740)
         self.assertEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 360)
         for part in (".arena", ".panel", ".time"):
             left, right = self.browser.evaluate(
@@ -334,7 +413,7 @@ class CollectionTest(PageTest):
     def setUp(self):
         self.address, self.genealogy = sample_page("collection")
         self.browser = browser()
-        self.browser.open(self.address)
+        self.browser.open(f"{self.address}#cycle=0")
 
     def test_items_are_drawn(self):
         self.assertEqual(self.text("#title"), "Collection with gene clocks")
