@@ -364,18 +364,19 @@ def take_figures(study, report):
 MARKED = re.compile(r"(<!-- table (?P<name>[^>]+?) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
-def with_tables(text):
-    names = [match["name"] for match in MARKED.finditer(text)]
-    if not names:
-        raise Unfit(f"{PAGE.name}: has no place for a table")
+def with_tables(page, tables):
+    """The page's text as it is, and as it should be: with each table in its place."""
+    old = page.read_text(encoding="utf-8")
+    if not MARKED.search(old):
+        raise Unfit(f"{page.name}: has no place for a table")
 
     def fill(match):
         name = match["name"]
-        if name not in TABLES:
-            raise Unfit(f"{PAGE.name}: there is no table '{name}'; there are {', '.join(TABLES)}")
-        return match[1] + "\n" + TABLES[name]() + "\n\n" + match[3]
+        if name not in tables:
+            raise Unfit(f"{page.name}: there is no table '{name}'; there are {', '.join(tables)}")
+        return match[1] + "\n" + tables[name]() + "\n\n" + match[3]
 
-    return MARKED.sub(fill, text)
+    return old, MARKED.sub(fill, old)
 
 
 def main():
@@ -397,8 +398,7 @@ def main():
         if arguments.figures:
             take_figures(*arguments.figures)
             return
-        old = PAGE.read_text(encoding="utf-8")
-        new = with_tables(old)
+        old, new = with_tables(PAGE, TABLES)
     except (OSError, Unfit, KeyError, ValueError, sqlite3.Error) as error:
         sys.exit(f"tables.py: {error}")
     if arguments.check:
