@@ -1,5 +1,8 @@
 """Which tests are tried on a fault, in which order: those that most likely notice it come first."""
 
+from dataclasses import replace
+
+import faults
 from workshop import Step
 
 
@@ -26,8 +29,11 @@ PAPER = programs("paper", "paper", "section_2_related_work", "section_3_1_markin
 EXPERIMENTS = programs("paper", "paper", "section_4_experiments")
 SWARMS = programs("property", "protocol", "swarm_property")
 OPERATORS = programs("property", "neat", "operators_property", "swarm_property")
-CORE = programs("unit", "sim/core", "simulation", "arena_map", "chronology", "measures",
-                "source_factory", "world")
+CORE = programs("unit", "sim/core", "simulation", "arena_map", "chronology", "control_cycle",
+                "item_field", "measures", "messages", "neighbour_index", "placement", "radio",
+                "run_results", "source_factory", "task", "world")
+# Trajectories that are kept: they notice nearly everything, and do not say what. So they come last.
+GOLDENS = Step(faults.GOLDENS, ("trajectories",), r"^determinism\.goldens$")
 STATISTICS = programs("unit", "sim/statistics", "statistics")
 CONTRASTS = programs("unit", "sim/report", "report")
 EXPLORER = programs("explorer", "model", "model")
@@ -49,14 +55,13 @@ AREAS = {
     "protocol/include/gene_clocks/schema.h": [GENERAL],
     "protocol/include/gene_clocks/genome_payload.h": [WIRE, CODEC],
     "protocol/include/gene_clocks/wire.h": [WIRE, CODEC],
+    "protocol/trace/": [TRACE, ORACLE, FUZZ],
     "protocol/": [MUST_NOT_COMPILE, PROTOCOL, SWARMS, EXPLORER, ORACLE, FUZZ, PAPER, NEAT, OPERATORS,
                   TRACE],
-    "neat/": [NEAT, OPERATORS, PAPER, FUZZ],
-    "protocol/trace/": [TRACE, ORACLE, FUZZ],
+    "neat/": [NEAT, OPERATORS, PAPER, FUZZ, GOLDENS],
     "sim/statistics/": [STATISTICS],
     "sim/report/": [CONTRASTS],
-    "sim/core/src/task.cpp": [EXPERIMENTS],
-    "sim/core/src/": [CORE, EXPERIMENTS],
+    "sim/core/src/": [CORE, EXPERIMENTS, GOLDENS],
     "sim/": [EXPERIMENTS],
     "fuzz/": [FUZZ],
     "tests/model/": [EXPLORER],
@@ -67,6 +72,12 @@ EVERY_STEP = list(dict.fromkeys(step for steps in AREAS.values() for step in ste
 
 # Where the test is not called as the file: by the beginning of the fault's name.
 LIKELY = {
+    "causal_past.cpp/": "tests/sim/core/chronology_test",
+    "gene_log.cpp/": "tests/sim/core/chronology_test",
+    "gene_log.hpp/": "tests/sim/core/chronology_test",
+    "gene_origins.hpp/": "tests/sim/core/chronology_test",
+    "lanes.hpp/": "tests/sim/core/world_test",
+    "sensing.cpp/": "tests/sim/core/world_test",
     "kernel.h/align": "tests/protocol/align_test",
     "kernel.h/equal": "tests/protocol/align_test",
     "kernel.h/less": "tests/protocol/innovation_number_test",
@@ -83,14 +94,28 @@ LIKELY = {
 }
 
 
-def steps_for(fault):
-    """First the one program that most likely notices the fault, then whatever else could."""
-    steps = next(steps for folder, steps in AREAS.items() if fault.file.startswith(folder))
-    file = fault.name.split("/")[0]
-    mirror = f"/{file.split('.')[0]}_test"  # tests/ mirrors the sources
+def meant_step(fault, steps):
+    """The tests that are to notice a fault; None where its folder's first ones are."""
+    if fault.meant == faults.GOLDENS:
+        return GOLDENS
+    if fault.meant:
+        program, _, test = fault.meant.partition(" ")
+        target = f"tests/{program}_test"
+        link = next((step.link for step in EVERY_STEP if target in step.targets), "unit")
+        return Step(link, (target,), only=test)
+    mirror = f"/{fault.name.split('/')[0].split('.')[0]}_test"  # tests/ mirrors the sources
     likely = next((test for name, test in LIKELY.items() if fault.name.startswith(name)), None)
     for step in steps:
         for target in step.targets:
             if len(step.targets) > 1 and (target == likely or target.endswith(mirror)):
-                return [Step(step.link, (target,)), *steps]
-    return steps
+                return Step(step.link, (target,))
+    return None
+
+
+def steps_for(fault):
+    """First the tests that are meant to notice the fault, then whatever else could."""
+    steps = next(steps for folder, steps in AREAS.items() if fault.file.startswith(folder))
+    meant = meant_step(fault, steps)
+    if meant is None:
+        return [replace(steps[0], is_meant=True), *steps[1:]]
+    return [replace(meant, is_meant=True), *(step for step in steps if step != meant)]

@@ -2,8 +2,10 @@
 """Breaks the code on purpose, in many small ways, and sees that a test notices each.
 
 Every fault of faults.txt and of proofs/kernel/slips.txt is made in a copy of the sources, which is
-built and tested until the first test fails. A fault that none notices, or that no longer fits the
-sources, makes this fail. A run that was interrupted goes on where it stopped.
+built and tested until the first test fails: first the one that is meant to notice it, then others,
+last the golden trajectories. A fault that none notices, or that no longer fits the sources, makes
+this fail; so does one that only a changed trajectory tells, or another test than the list names,
+unless the list says so. A run that was interrupted goes on where it stopped.
 """
 
 import argparse
@@ -70,7 +72,7 @@ class Record:
 
     def add(self, name, verdict):
         self.verdicts[name] = verdict
-        content = {name: (v.outcome, v.link, v.by) for name, v in self.verdicts.items()}
+        content = {name: (v.outcome, v.link, v.by, v.is_meant) for name, v in self.verdicts.items()}
         fresh = self.path.with_suffix(".new")
         fresh.write_text(json.dumps({"key": self.key, "verdicts": content}))
         fresh.replace(self.path)
@@ -117,7 +119,8 @@ def try_all(chosen, workshop, steps_for, record, say):
             rest_s = (time.monotonic() - started) / number * (len(left) - number)
             say(f"[{len(known) + number:3}/{len(chosen)}, {rest_s / 60:3.0f} min left] "
                 f"{verdict.outcome:8} {fault.name}: "
-                f"{verdict.link}{', ' if verdict.link else ''}{verdict.by}")
+                f"{verdict.link}{', ' if verdict.link else ''}{verdict.by}"
+                + (" (another)" if verdict.outcome == "killed" and not verdict.is_meant else ""))
 
 
 def report(chosen, verdicts, say):
@@ -126,18 +129,30 @@ def report(chosen, verdicts, say):
     for line in table(chosen, verdicts):
         say(line)
     killed = [fault for fault in chosen if verdicts[fault.name].outcome == "killed"]
-    wrong = []
+    wrong, by_others = [], []
     for fault in chosen:
-        outcome = verdicts[fault.name].outcome
+        verdict = verdicts[fault.name]
+        outcome = verdict.outcome
         if outcome == "senseless":
-            wrong.append(f"does not compile: {fault.name}: {verdicts[fault.name].by}")
+            wrong.append(f"does not compile: {fault.name}: {verdict.by}")
         elif fault.equivalent and outcome == "killed":
             wrong.append(f"not equivalent, though the list says so: {fault.name}")
         elif not fault.equivalent and outcome == "survived":
             wrong.append(f"survived: {fault.name} ({fault.file}: {fault.meaning})")
+        elif outcome == "killed" and not verdict.is_meant:
+            if verdict.link == faults.GOLDENS:
+                wrong.append(f"noticed by the golden trajectories alone: {fault.name}")
+            elif fault.meant:
+                wrong.append(f"noticed by {verdict.by}, not by {fault.meant}: {fault.name}")
+            else:
+                by_others.append(f"noticed by another than its file's tests: {fault.name}: {verdict.by}")
     say("")
-    for line in wrong:
+    for line in by_others + wrong:
         say(line)
+    meant = [fault for fault in killed if verdicts[fault.name].is_meant]
+    goldens = [fault for fault in meant if fault.meant == faults.GOLDENS]
+    say(f"{len(meant)} mutants noticed by the test that is meant to"
+        + (f", {len(goldens)} of them by the golden trajectories, which alone can" if goldens else ""))
     say(f"{len(killed)} of {len(chosen)} mutants killed")
     return not wrong
 

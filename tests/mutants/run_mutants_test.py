@@ -4,6 +4,7 @@ import pathlib
 import shutil
 import tempfile
 import unittest
+from dataclasses import replace
 
 import faults
 import plan
@@ -47,8 +48,8 @@ UNIT = Step("unit", ("sum_test",))
 AGAIN = Step("again", ("sum_test",), r"^again\.")
 
 
-def fault(meaning, before, after, equivalent=""):
-    return faults.Fault(f"sum.cpp/{meaning}", "sum.cpp", meaning, before, after, equivalent)
+def fault(meaning, before, after, equivalent="", meant=""):
+    return faults.Fault(f"sum.cpp/{meaning}", "sum.cpp", meaning, before, after, equivalent, meant)
 
 
 class ListTest(unittest.TestCase):
@@ -99,6 +100,17 @@ class ListTest(unittest.TestCase):
         line = "sum.cpp\tadds nothing\ttotal += i\ttotal += 0\n"
         self.assert_does_not_fit(line + line, "two of that name")
 
+    def test_a_line_may_say_which_test_is_meant_to_notice(self):
+        (self.root / "tests").mkdir()
+        (self.root / "tests/sum_test.cpp").write_text(TEST)
+        line = "sum.cpp\tadds nothing\ttotal += i\ttotal += 0\t\t"
+        (one,) = self.read(line + "sum AddsUp\n")
+        self.assertEqual((one.equivalent, one.meant), ("", "sum AddsUp"))
+        faults.check([one], self.root)
+        faults.check(self.read(line + "goldens\n"), self.root)
+        self.assert_does_not_fit(line + "sum Adds\n", "tests/sum_test.cpp has no test Adds")
+        self.assert_does_not_fit(line + "product AddsUp\n", "there is no tests/product_test.cpp")
+
     def test_faults_are_chosen_by_the_beginning_of_their_names(self):
         one, other = fault("one", "1", "2"), fault("other", "1", "2", "no matter")
         self.assertEqual(run_mutants.choose([one, other], []), [one])
@@ -115,7 +127,20 @@ class OurListTest(unittest.TestCase):
         everything = run_mutants.every_fault()
         self.assertGreater(len(everything), 60)
         for one in everything:
-            self.assertTrue(plan.steps_for(one), one.name)
+            steps = plan.steps_for(one)
+            self.assertTrue(steps[0].is_meant, one.name)
+            self.assertFalse(any(step.is_meant for step in steps[1:]), one.name)
+
+    def test_what_the_list_says_is_tried_first_and_the_goldens_last(self):
+        place = "neat/src/agent.cpp"
+        one, other, last = (
+            plan.steps_for(faults.Fault(f"agent.cpp/{meant}", place, "", "", "", "", meant))
+            for meant in ("sim/core/messages CarryTheEnergyOfTheirSender", "", "goldens"))
+        self.assertEqual(one[0].targets, ("tests/sim/core/messages_test",))
+        self.assertEqual(one[0].only, "CarryTheEnergyOfTheirSender")
+        self.assertEqual((one[0].link, one[-1]), ("unit", plan.GOLDENS))
+        self.assertEqual((other[0].targets, other[0].only), (("tests/neat/agent_test",), ""))
+        self.assertEqual(last[0], replace(plan.GOLDENS, is_meant=True))
 
 
 class TrialTest(unittest.TestCase):
@@ -144,7 +169,9 @@ class TrialTest(unittest.TestCase):
         workshop = Workshop(self.root, self.folder / "work", shortest_limit_s=5.0)
         try:
             run_mutants.try_all(
-                chosen, workshop, lambda fault: list(steps), self.record, say or self.said.append)
+                chosen, workshop,
+                lambda fault: list(steps(fault.name) if callable(steps) else steps), self.record,
+                say or self.said.append)
         finally:
             self.assertEqual(digest(self.root), before, "the sources themselves were changed")
         return [self.record.verdicts[one.name] for one in chosen]
@@ -159,6 +186,47 @@ class TrialTest(unittest.TestCase):
         good, text = self.reported(*chosen)
         self.assertTrue(good)
         self.assertIn("1 of 1 mutants killed", text)
+
+    def test_only_the_test_that_is_meant_to_notice_counts_as_such(self):
+        chosen = [fault("adds nothing", "total += i", "total += 0", meant="sum AddsUp"),
+                  fault("adds twice", "total += i", "total += 2 * i", meant="sum OfNothingIsZero")]
+        steps = {one.name: [Step("unit", ("sum_test",), only=one.meant.split()[1], is_meant=True), UNIT]
+                 for one in chosen}
+        self.assertEqual(self.try_all(*chosen, steps=steps.__getitem__),
+                         [Verdict("killed", "unit", "Sum.AddsUp", True),
+                          Verdict("killed", "unit", "Sum.AddsUp", False)])
+        good, text = self.reported(*chosen)
+        self.assertFalse(good)
+        self.assertIn("noticed by Sum.AddsUp, not by sum OfNothingIsZero: sum.cpp/adds twice", text)
+        self.assertIn("1 mutants noticed by the test that is meant to\n2 of 2 mutants killed", text)
+        self.assertTrue(self.reported(chosen[0])[0])
+
+    def test_what_only_the_goldens_notice_is_no_success_unless_the_list_says_so(self):
+        goldens = replace(AGAIN, link=faults.GOLDENS)
+        quiet = Step("unit", ("sum_test",), only="OfNothingIsZero", is_meant=True)
+        chosen = [fault("adds nothing", "total += i", "total += 0")]
+        (verdict,) = self.try_all(*chosen, steps=[quiet, goldens])
+        self.assertEqual(verdict, Verdict("killed", "goldens", "again.sum (Failed)", False))
+        good, text = self.reported(*chosen)
+        self.assertFalse(good)
+        self.assertIn("noticed by the golden trajectories alone: sum.cpp/adds nothing", text)
+        meant = [replace(chosen[0], name="sum.cpp/meant", meant=faults.GOLDENS)]
+        self.try_all(*meant, steps=[replace(goldens, is_meant=True)])
+        good, text = self.reported(*meant)
+        self.assertTrue(good)
+        self.assertIn("1 of them by the golden trajectories, which alone can", text)
+
+    def test_another_test_than_the_files_is_told(self):
+        chosen = [fault("adds nothing", "total += i", "total += 0")]
+        self.try_all(*chosen)
+        good, text = self.reported(*chosen)
+        self.assertTrue(good)
+        self.assertIn("another than its file's tests: sum.cpp/adds nothing: Sum.AddsUp", text)
+
+    def test_a_test_that_is_meant_must_be_there(self):
+        with self.assertRaisesRegex(Failed, "sum_test has no test Adds"):
+            self.try_all(fault("adds nothing", "total += i", "total += 0"),
+                         steps=[Step("unit", ("sum_test",), only="Adds", is_meant=True)])
 
     def test_a_test_of_ctest_is_named(self):
         (verdict,) = self.try_all(fault("adds nothing", "total += i", "total += 0"), steps=[AGAIN])

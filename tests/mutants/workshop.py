@@ -26,12 +26,15 @@ class Failed(Exception):
 class Step:
     """Some tests of one link, and what is built for them.
 
-    Without `ctest`, a regular expression of names of tests, the targets are GoogleTest programs.
+    Without `ctest`, a regular expression of names of tests, the targets are GoogleTest programs, of
+    which `only` the test of that name counts, if one is given.
     """
 
     link: str
     targets: tuple
     ctest: str = ""
+    only: str = ""
+    is_meant: bool = False  # the fault that it is tried on is its own to notice
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,7 @@ class Verdict:
     outcome: str  # "killed", "survived", or "senseless": the compiler does not take it
     link: str = ""  # that killed it
     by: str = ""  # the test, or the line that did not compile
+    is_meant: bool = False  # it was that test's own to notice
 
 
 def sources(root):
@@ -115,6 +119,8 @@ class Workshop:
             started = time.monotonic()
             self.limits_s.pop(step, None)
             failure = self.test(step)
+            if step.only and "Running 0 tests" in self.tail(1 << 20):
+                raise Failed(f"{step.targets[0]} has no test {step.only}")
             if failure:
                 raise Failed(f"without a fault, too, a test fails: {failure}\n{self.tail()}")
             self.limits_s[step] = max(self.shortest_limit_s, 20 * (time.monotonic() - started))
@@ -130,7 +136,7 @@ class Workshop:
                     return self.not_built(step, output)
                 failure = self.test(step)
                 if failure:
-                    return Verdict("killed", step.link, failure)
+                    return Verdict("killed", step.link, failure, step.is_meant)
             return Verdict("survived")
         finally:
             self.write(fault.file, original)
@@ -139,9 +145,9 @@ class Workshop:
         """Why a mutant does not build: an assertion refuses it, or it is nonsense."""
         error = re.search(r"^(?:.*/)?([^/\n]+:\d+):.*error: (.*)$", output, re.MULTILINE)
         if error and "static assertion" in error[2]:
-            return Verdict("killed", "compiler", f"{error[1]} {error[2]}")
+            return Verdict("killed", "compiler", f"{error[1]} {error[2]}", True)
         if "Error running test executable" in output:
-            return Verdict("killed", step.link, "the program of the tests does not start")
+            return Verdict("killed", step.link, "the program of the tests does not start", step.is_meant)
         if not error:
             raise Failed(f"the build of a mutant fails otherwise than by an error in it:\n{output[-4000:]}")
         return Verdict("senseless", by=f"{error[1]} {error[2]}")
@@ -164,8 +170,9 @@ class Workshop:
                 return ""
             failed = re.search(r"^\s*\d+ - (\S+) \((.*)\)$", output, re.MULTILINE)
             return f"{failed[1]} ({failed[2]})" if failed else how_it_ended(status)
+        only = [f"--gtest_filter=*.{step.only}:*.{step.only}/*"] if step.only else []
         for program in step.targets:
-            status, output = self.run([self.build / program, "--gtest_fail_fast"], limit_s, hold_back)
+            status, output = self.run([self.build / program, "--gtest_fail_fast", *only], limit_s, hold_back)
             if status != 0:
                 started = re.findall(r"^\[ RUN      \] (\S+)", output, re.MULTILINE)
                 failed = re.findall(r"^\[  FAILED  \] (\S+?),? ", output, re.MULTILINE)

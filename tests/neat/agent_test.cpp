@@ -414,6 +414,20 @@ TEST_F(AgentTest, TheControllerIsThatOfTheOffspring) {
     EXPECT_EQ(agent.control(readings)[0], controller.update(readings)[0]);
 }
 
+TEST_F(AgentTest, TheShareIsThatOfTheOffspring) {
+    settings_.population = 4;
+    Agent agent = make_agent();
+    agent.receive(message(0, 9.0f, 50.0f));
+    ASSERT_NEAR(agent.broadcast_probability(), 100.0 / 150.0, 1e-6);
+    const auto dead = agent.message().genome;
+    agent.replace(0.0);
+    // The offspring shares the fitness of its parent's species.
+    const double expected = same_genes(agent.active(), *dead)
+                                ? (200.0 / 4.0) / (200.0 / 4.0 + 50.0)
+                                : (150.0 / 4.0) / (150.0 / 4.0 + 100.0);
+    EXPECT_NEAR(agent.broadcast_probability(), expected, 1e-6);
+}
+
 TEST_F(AgentTest, AFullPopulationDropsItsWorstForTheOffspring) {
     Agent agent = make_agent();
     agent.receive(message(0, 9.0f, 20.0f));

@@ -217,6 +217,7 @@ class ItemsInACycle : public ControlCycle {};
 
 TEST_P(ItemsInACycle, GoToTheFirstWhoReachesThemAndReappearInTime) {
     settings_.world.item_absence_cycles = 3;
+    settings_.world.item_reach_px = 20.0;  // often several at once, and some that just appeared
     const watched::Run run(settings_, arena_);
     int taken = 0, reappeared = 0;
     for (std::size_t t = 0; t + 1 < run.moments.size(); ++t) {

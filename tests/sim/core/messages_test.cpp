@@ -76,6 +76,37 @@ TEST_F(Messages, ASwarmOfLonersSendsWheneverItSeesSomebody) {
     EXPECT_LE(disagree, agree / 300);
 }
 
+/// What a species has of all species' fitness: the mean of its members' over its size.
+double share_of(const watched::Robot& robot) {
+    std::map<std::size_t, std::pair<double, double>> species;  // sum and size
+    for (const auto& member : robot.members) {
+        species[member.species].first += static_cast<double>(member.fitness);
+        species[member.species].second += 1.0;
+    }
+    double all = 0.0;
+    for (const auto& [index, found] : species) all += found.first / (found.second * found.second);
+    const auto& [sum, size] = species.at(robot.member(robot.genome->id)->species);
+    return all > 0.0 ? sum / (size * size) / all : 0.0;
+}
+
+TEST_F(Messages, AreSentAsOftenAsTheShareOfTheirSpeciesSays) {
+    settings_.run.cycles = 1500;
+    settings_.radio.loss = 0.9;  // shares change little within a cycle
+    const watched::Run run(settings_, arena_);
+    double expected = 0.0, variance = 0.0;
+    for (std::int64_t cycle = 0; cycle < settings_.run.cycles; ++cycle) {
+        for (std::size_t i = 0; i < run.moments[0].robots.size(); ++i) {
+            if (in_reach(run, cycle, i).empty()) continue;
+            const double share = share_of(run.moments[static_cast<std::size_t>(cycle)].robots[i]);
+            expected += share;
+            variance += share * (1.0 - share);
+        }
+    }
+    EXPECT_GT(variance, 100.0) << "hardly anything was left to chance";
+    EXPECT_NEAR(static_cast<double>(run.messages), expected,
+                5 * std::sqrt(variance) + 0.01 * expected);
+}
+
 TEST_F(Messages, ArriveInTheCycleInWhichTheyAreSentUnlessTheyAreDelayed) {
     for (const std::int64_t delay : {0, 1, 5}) {
         settings_.radio.delay_cycles = delay;
@@ -134,6 +165,38 @@ TEST_F(Messages, AreSentInAnOrderDrawnAnewEachCycle) {
     EXPECT_GT(pairs, 3000.0);
     EXPECT_NEAR(ascending / pairs, 0.5, 5 * std::sqrt(0.25 / pairs));
     EXPECT_LT(same_first / firsts, 0.4);
+}
+
+TEST_F(Messages, AreSentInAnyOrderEquallyOften) {
+    // Three large robots that stand near each other: all see one another, and all send.
+    arena_ = {"small", 60.0, 60.0, 5.0, 5.0, 5.0, 5.0, {}};
+    settings_.world.robots = 3;
+    settings_.world.robot_radius_px = 8.0;
+    settings_.world.translation_px = 0.0;
+    settings_.radio.range_px = 30.0;
+    settings_.radio.loss = 1.0;
+    settings_.run.cycles = 3000;
+    const watched::Run run(settings_, arena_);
+    ASSERT_GT(run.events.size(), 6000u);
+    std::map<std::int64_t, std::vector<std::size_t>> orders;
+    for (const Event& event : run.events) orders[event.cycle].push_back(event.robot);
+    std::map<std::vector<std::size_t>, double> counts;
+    double complete = 0.0, pairs = 0.0, same = 0.0;
+    const std::vector<std::size_t>* before = nullptr;
+    for (const auto& [cycle, order] : orders) {
+        if (order.size() != 3) continue;
+        complete += 1.0;
+        counts[order] += 1.0;
+        if (before != nullptr) pairs += 1.0, same += *before == order;
+        before = &order;
+    }
+    ASSERT_GT(complete, 500.0);
+    ASSERT_EQ(counts.size(), 6u);
+    const auto tolerance = [](double p, double of) { return 5 * std::sqrt(p * (1 - p) / of); };
+    for (const auto& [order, count] : counts) {
+        EXPECT_NEAR(count / complete, 1.0 / 6.0, tolerance(1.0 / 6.0, complete));
+    }
+    EXPECT_NEAR(same / pairs, 1.0 / 6.0, tolerance(1.0 / 6.0, pairs));
 }
 
 TEST_F(Messages, CarryTheEnergyOfTheirSender) {

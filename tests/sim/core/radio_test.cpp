@@ -59,6 +59,14 @@ TEST_F(RadioTest, LosesTheShareThatItIsTold) {
     EXPECT_NEAR(static_cast<double>(take().size()), 70'000.0, 725.0);
 }
 
+TEST_F(RadioTest, LosesTheSameShareOfDelayedMessages) {
+    Radio radio({.loss = 0.3, .delay_cycles = 2});
+    for (std::uint64_t number = 0; number < 100'000; ++number) send(radio, number, 0);
+    EXPECT_TRUE(take().empty());
+    for (int i = 0; i < 5; ++i) radio.deliver_delayed(note());
+    EXPECT_NEAR(static_cast<double>(take().size()), 70'000.0, 725.0);
+}
+
 TEST_F(RadioTest, LosesAllOrNothingAtTheEnds) {
     Radio deaf({.loss = 1.0});
     for (std::uint64_t number = 0; number < 1000; ++number) send(deaf, number, 0);

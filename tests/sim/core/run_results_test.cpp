@@ -140,6 +140,34 @@ TEST_F(RunResults, RebootsAreTheGenomesThatWereLost) {
     }
 }
 
+TEST_F(RunResults, WhoIsNotThereYetDoesNotReboot) {
+    settings_.join = {.late_share = 0.5, .cycles = 1'000'000'000};  // never, in this run
+    settings_.reboot.probability = 1.0;
+    settings_.run.cycles = 100;
+    EXPECT_EQ(watched::Run(settings_, arena_).result.counters.reboots, 6u * 100u);
+}
+
+TEST_F(RunResults, IdentifiersAreDrawnAnewInEveryLife) {
+    settings_.source = Source::random_identifier;
+    settings_.odneat.p_mutate = settings_.odneat.p_node = 1.0;
+    settings_.reboot = {.probability = 0.005, .clock = RebootClock::lost};
+    const watched::Run run(settings_, arena_);
+    std::set<InnovationNumber> neurons;
+    int drawn = 0;
+    for (const watched::Marking& marking : run.markings) {
+        const auto t = static_cast<std::size_t>(marking.cycle) + 1;
+        const auto& genome = *run.moments[t].robots[marking.robot].genome;
+        if (!genome.topology->find_neuron(marking.mark)) continue;
+        ++drawn;
+        neurons.insert(marking.mark);
+    }
+    EXPECT_GT(run.result.counters.reboots, 50u);
+    EXPECT_GT(drawn, 30);
+    // By chance a few are drawn twice; a robot that began each life with the same draws would
+    // repeat nearly all.
+    EXPECT_GT(neurons.size(), static_cast<std::size_t>(drawn) * 85 / 100);
+}
+
 TEST_F(RunResults, GenesCreatedAreTheMarksThatWereNeverSeenBefore) {
     const watched::Run run(settings_, arena_);
     std::set<InnovationNumber> marks;

@@ -295,6 +295,79 @@ TEST_F(WorldTest, TranslationChangesByTheAccelerationAtMostAndEndsInACollision) 
     EXPECT_TRUE(has_collided);
 }
 
+TEST_F(WorldTest, TranslationFallsByTheAccelerationAtMost) {
+    settings_.world.acceleration_px = 0.5;
+    set_robots(1);
+    arena_ = {"wide", 400.0, 400.0, 5.0, 5.0, 5.0, 5.0, {}};
+    World world = make_world();
+    double last_px = 0.0;
+    int forward = 0, backward = 0;
+    for (int cycle = 0; cycle < 600; ++cycle) {
+        const float wanted = cycle / 7 % 2 == 0 ? 1.0f : -1.0f;
+        const float x = world.x_px()[0];
+        const float y = world.y_px()[0];
+        if (move(world, wanted, 0.3f) > 0) {
+            last_px = 0.0;
+            continue;
+        }
+        const double step_px = (world.x_px()[0] - x) * world.heading_x()[0] +
+                               (world.y_px()[0] - y) * world.heading_y()[0];
+        ASSERT_NEAR(step_px, std::clamp(2.0 * wanted, last_px - 0.5, last_px + 0.5), 1e-3);
+        last_px = step_px;
+        ++(step_px > 0.0 ? forward : backward);
+    }
+    EXPECT_GT(forward, 100);
+    EXPECT_GT(backward, 100);
+}
+
+TEST_F(WorldTest, RobotsMoveOneAfterTheOtherInTheOrderGiven) {
+    // A crowd, in which who comes first takes the place that another wanted.
+    arena_ = {"crowd", 70.0, 70.0, 5.0, 5.0, 5.0, 5.0, {}};
+    set_robots(40);
+    World world = make_world();
+    const std::vector<float> translations(world.robots(), 1.0f);
+    int blocked = 0, decided_by_order = 0;
+    for (int cycle = 0; cycle < 400; ++cycle) {
+        std::vector<float> rotations;
+        for (std::size_t i = 0; i < world.robots(); ++i) {
+            rotations.push_back(static_cast<float>(random_.uniform(-1.0, 1.0)));
+            std::swap(order_[i], order_[random_.below(static_cast<std::uint32_t>(i + 1))]);
+        }
+        std::vector<double> x(world.x_px().begin(), world.x_px().end());
+        std::vector<double> y(world.y_px().begin(), world.y_px().end());
+        const auto x_before = x;
+        const auto y_before = y;
+        world.move(translations, rotations, order_);
+        for (const std::uint32_t i : order_) {
+            const double to_x = x[i] + 2.0 * world.heading_x()[i];
+            const double to_y = y[i] + 2.0 * world.heading_y()[i];
+            const auto closest = [&](const auto& xs, const auto& ys) {
+                double smallest = 1e9;
+                for (std::size_t j = 0; j < xs.size(); ++j) {
+                    if (j == i) continue;
+                    smallest = std::min(smallest, std::abs(xs[j] - to_x) + std::abs(ys[j] - to_y));
+                }
+                return smallest;
+            };
+            const double robot_px = closest(x, y);
+            const double frame_px = std::min({to_x, to_y, 70.0 - to_x, 70.0 - to_y}) - 5.0;
+            const bool is_close_call =
+                std::abs(robot_px - 2 * radius_px) < 1e-3 || std::abs(frame_px - radius_px) < 1e-3;
+            const bool stays = world.x_px()[i] == x_before[i] && world.y_px()[i] == y_before[i];
+            const bool expected = robot_px < 2 * radius_px || frame_px < radius_px;
+            ASSERT_TRUE(stays == expected || is_close_call) << cycle << ' ' << i;
+            blocked += expected;
+            decided_by_order +=
+                (closest(x_before, y_before) < 2 * radius_px) != (robot_px < 2 * radius_px);
+            x[i] = world.x_px()[i];
+            y[i] = world.y_px()[i];
+        }
+        world.sense();
+    }
+    EXPECT_GT(blocked, 500);
+    EXPECT_GT(decided_by_order, 80);
+}
+
 TEST_F(WorldTest, ItemsArePickedUpWithinReachAndReappearElsewhere) {
     collect(6);
     World world = make_world();
@@ -342,6 +415,31 @@ TEST_F(WorldTest, WallsPassForItemsAsOftenAsTheSlipSays) {
         wander(world);
     }
     EXPECT_NEAR(static_cast<double>(slips) / (walls + slips), 0.5, 0.1);
+}
+
+TEST_F(WorldTest, RobotsAndItemsDoNotPassForItemsByTheSlip) {
+    collect(1);
+    settings_.world.item_slip = 1.0;  // all walls do
+    set_robots(20);
+    World world = make_world();
+    int robots = 0, walls = 0;
+    for (int cycle = 0; cycle < 200; ++cycle) {
+        for (std::size_t i = 0; i < world.robots(); ++i) {
+            const Senses& senses = world.senses(i);
+            for (std::size_t ray = 0; ray < ray_count; ++ray) {
+                if (senses.robot[ray] >= 0) {
+                    EXPECT_EQ(senses.item[ray], 1.0f);
+                    ++robots;
+                } else {
+                    EXPECT_EQ(senses.obstacle[ray], 1.0f);
+                    walls += senses.item[ray] < 1.0f;
+                }
+            }
+        }
+        wander(world);
+    }
+    EXPECT_GT(robots, 500);
+    EXPECT_GT(walls, 5000);
 }
 
 TEST_F(WorldTest, AnArenaWithoutRoomIsAnError) {
