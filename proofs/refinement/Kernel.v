@@ -73,10 +73,16 @@ Definition gene_clocks_start : function :=
         (Declare (Some (Binary Add UInt64 (Local 2) (Convert UInt64 (Constant 1)))))
         (Return (Some (Call "gene_clocks_restore" [(Local 0); (Local 1); (Local 3); (Local 3)])))))).
 
-(** Parameters: 0 state, 1 limits, 2 stored. *)
+(** Parameters: 0 state, 1 limits, 2 genesis_count, 3 stored. *)
 Definition gene_clocks_restart : function :=
-  (Function 3
-    (Return (Some (Call "gene_clocks_restore" [(Local 0); (Local 1); (Local 2); (Local 2)])))).
+  (Function 4
+    (Return
+      (Some
+        (Convert Bool
+          (And
+            (Binary More UInt64 (Local 3) (Local 2))
+            (Convert Int32
+              (Call "gene_clocks_restore" [(Local 0); (Local 1); (Local 3); (Local 3)]))))))).
 
 (** Parameters: 0 state, 1 limits. *)
 Definition gene_clocks_reserve : function :=

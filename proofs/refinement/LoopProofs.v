@@ -1,6 +1,6 @@
 (** * The loops over one genome refine the model *)
 From Coq Require Import ZArith NArith String List Bool Lia.
-From GeneClocks Require Import Mark Clock.
+From GeneClocks Require Import Mark Clock Admission.
 From Refinement Require Import Semantics Kernel Statements Execution.
 Import ListNotations.
 
@@ -22,7 +22,7 @@ Ltac counting genome decides answer asked slot :=
       at_loop (counts slot env s genome decides answer) (length genome);
       [ let k := fresh "k" in let bound := fresh "bound" in let decided := fresh "decided" in
         intros ? ? ? (k & bound & -> & -> & -> & decided); compute_on; repeat step;
-        advance; cbn -[from] in decided; clear asked; subst answer; repeat step;
+        advance; cbn -[from] in decided; unfold unmade in decided; cbn -[from] in decided; clear asked; subst answer; repeat step;
         first [returned | next_round genome k]
       | exists O; split; [lia|]; split; [lia|]; split; [cbn; same|]; split; [reflexivity|exact asked]
       | lia ]

@@ -5,8 +5,7 @@
     memory but that objects that are written are apart from the others. Numbers fit their types,
     as all that a C program can hold does. *)
 From Coq Require Import ZArith NArith String List Bool.
-From GeneClocks Require Import Mark Clock Alignment.
-From GeneClocks Require Admission.
+From GeneClocks Require Import Mark Clock Alignment Admission.
 From Refinement Require Import Semantics Kernel.
 Import ListNotations.
 Open Scope string_scope.
@@ -71,28 +70,24 @@ Definition gene_clocks_equal_refines : Prop :=
 
 (** ** Clock *)
 
-(** The invariant of a clock, and what takes up a state where it holds. *)
-Definition sound (l : limits) (c : clock) : bool :=
-  (1 <=? next c) && (next c <=? durable c) && (durable c <=? maximum l).
-Definition restore (l : limits) (c : clock) : option clock := if sound l c then Some c else None.
-
 Definition gene_clocks_restore_refines : Prop :=
   forall m state limits_at old l c, clock_at m state limits_at old l -> clock_fits c ->
     takes_up "gene_clocks_restore"
       [Pointer state; Pointer limits_at; number_value (next c); number_value (durable c)]
-      m state (restore l c).
+      m state (restore l (next c) (durable c)).
 
 Definition gene_clocks_start_refines : Prop :=
   forall m state limits_at old l, clock_at m state limits_at old l ->
     fits gene_clocks_counter (genesis_count l) ->
     takes_up "gene_clocks_start" [Pointer state; Pointer limits_at; number_value (genesis_count l)]
-      m state (if genesis_count l <? maximum l then Some (restart (start l)) else None).
+      m state (if genesis_count l <? maximum l then Some (Clock (start l) (start l)) else None).
 
 Definition gene_clocks_restart_refines : Prop :=
   forall m state limits_at old l stored, clock_at m state limits_at old l ->
-    fits gene_clocks_counter stored ->
-    takes_up "gene_clocks_restart" [Pointer state; Pointer limits_at; number_value stored]
-      m state (restore l (restart stored)).
+    fits gene_clocks_counter (genesis_count l) -> fits gene_clocks_counter stored ->
+    takes_up "gene_clocks_restart"
+      [Pointer state; Pointer limits_at; number_value (genesis_count l); number_value stored]
+      m state (restart l stored).
 
 Definition gene_clocks_reserve_refines : Prop :=
   forall m state limits_at c l, clock_at m state limits_at c l -> next c <= maximum l ->
@@ -133,8 +128,7 @@ Fixpoint find_unmade (next robot : N) (genome : list mark) : nat :=
   match genome with
   | [] => O
   | gene :: rest =>
-      if (maker gene =? robot) && (next <=? counter gene) then O
-      else S (find_unmade next robot rest)
+      if unmade next robot gene then O else S (find_unmade next robot rest)
   end.
 
 Definition gene_clocks_find_unmade_refines : Prop :=
@@ -146,31 +140,32 @@ Definition gene_clocks_find_unmade_refines : Prop :=
 (** ** Allowance *)
 
 Definition gene_clocks_earn_refines : Prop :=
-  forall m allowance held p, m allowance = Some (number_value held) -> held <= Admission.ceiling p ->
-    fits gene_clocks_counter (Admission.ceiling p) ->
-    fits gene_clocks_counter (Admission.per_cycle p) ->
+  forall m allowance_at held p, m allowance_at = Some (number_value held) -> held <= ceiling p ->
+    fits gene_clocks_counter (ceiling p) -> fits gene_clocks_counter (per_cycle p) ->
     computes "gene_clocks_earn"
-      [Pointer allowance; number_value (Admission.per_cycle p); number_value (Admission.ceiling p)]
-      m Undefined (write m allowance (number_value (Admission.earn p held))).
+      [Pointer allowance_at; number_value (per_cycle p); number_value (ceiling p)]
+      m Undefined (write m allowance_at (number_value (earn p held))).
 
-(** Which of the refusals it is; the model has only one. *)
-Definition why_refused (l : limits) (g : Admission.guarded) (stamp : N) : Z :=
-  if maximum l <? stamp then gene_clocks_beyond_maximum
-  else if window l <? stamp - next (Admission.clock_of g) then gene_clocks_beyond_window
-  else gene_clocks_beyond_allowance.
+Definition refusal_value (why : refusal) : value :=
+  Int match why with
+      | BeyondMaximum => gene_clocks_beyond_maximum
+      | BeyondWindow => gene_clocks_beyond_window
+      | BeyondAllowance => gene_clocks_beyond_allowance
+      | NotCovered => gene_clocks_gene_not_covered
+      | IdentityConflict => gene_clocks_identity_conflict
+      end.
 
 Definition gene_clocks_admit_refines : Prop :=
-  forall m state limits_at allowance c l held stamp, clock_at m state limits_at c l ->
-    m allowance = Some (number_value held) -> allowance <> state -> allowance <> limits_at ->
-    fits gene_clocks_counter held -> fits gene_clocks_counter stamp ->
-    let arguments := [Pointer state; Pointer limits_at; Pointer allowance; number_value stamp] in
-    let g := Admission.Guarded c held in
-    match Admission.accept l g stamp with
-    | Some g' =>
+  forall m state limits_at allowance_at c l g stamp, clock_at m state limits_at c l ->
+    m allowance_at = Some (number_value (allowance g)) ->
+    allowance_at <> state -> allowance_at <> limits_at ->
+    fits gene_clocks_counter (allowance g) -> fits gene_clocks_counter stamp ->
+    let arguments := [Pointer state; Pointer limits_at; Pointer allowance_at; number_value stamp] in
+    match accept l c g stamp with
+    | inl (c', g') =>
         computes "gene_clocks_admit" arguments m (Int gene_clocks_admitted)
-          (write (write m state (clock_value (Admission.clock_of g')))
-             allowance (number_value (Admission.allowance g')))
-    | None => computes "gene_clocks_admit" arguments m (Int (why_refused l g stamp)) m
+          (write (write m state (clock_value c')) allowance_at (number_value (allowance g')))
+    | inr why => computes "gene_clocks_admit" arguments m (refusal_value why) m
     end.
 
 (** ** Alignment *)
