@@ -289,7 +289,8 @@ void agent_receive(benchmark::State& state) {
     for (auto _ : state) {
         // All robots' first genomes, then all robots' second ones, and so on.
         const std::size_t turn = next++ / repeats % messages.size();
-        benchmark::DoNotOptimize(receiver.receive(messages[turn % 8 * 8 + turn / 8]));
+        benchmark::DoNotOptimize(receiver.receive(RobotId{static_cast<std::uint32_t>(2 + turn % 8)},
+                                                  messages[turn % 8 * 8 + turn / 8]));
         tabu += receiver.tabu_list().size();
         if (next % 4096 == 0) receiver.replace(0.0);
     }

@@ -18,13 +18,28 @@ std::optional<std::size_t> Population::find(GenomeId id) const {
     return std::nullopt;
 }
 
-std::optional<std::size_t> Population::worst(std::optional<GenomeId> except) const {
+template <class IsCandidate>
+std::optional<std::size_t> Population::worst_where(IsCandidate is_candidate) const {
     std::optional<std::size_t> worst;
     for (std::size_t i = 0; i < members_.size(); ++i) {
-        if (except && members_[i].id == *except) continue;
+        if (!is_candidate(members_[i])) continue;
         if (!worst || members_[i].fitness < members_[*worst].fitness) worst = i;
     }
     return worst;
+}
+
+std::optional<std::size_t> Population::worst(std::optional<GenomeId> except) const {
+    return worst_where([&](const Member& member) { return !except || member.id != *except; });
+}
+
+std::optional<std::size_t> Population::worst_of(MadeBy members) const {
+    return worst_where(members);
+}
+
+bool Population::has(MadeBy members, std::size_t count) const {
+    if (count > members_.size()) return false;
+    return static_cast<std::size_t>(std::count_if(members_.begin(), members_.end(), members)) >=
+           count;
 }
 
 void Population::add(std::shared_ptr<const Genome> genome, float fitness) {

@@ -80,20 +80,22 @@ TEST_F(AgentTest, StartsWithARandomPerceptronInItsPopulationAndTheInitialEnergy)
 // ---- if do_broadcast? then send(g_a, e, neighbors) ----
 
 TEST_F(AgentTest, BroadcastsWithTheFitnessShareOfItsSpecies) {
+    settings_.energy_maximum = 500.0;
     Agent agent = make_agent();
     EXPECT_EQ(agent.broadcast_probability(), 1.0);
-    agent.receive(message(0, 9.0f, 50.0f));  // far: another species
+    agent.receive(RobotId{9}, message(0, 9.0f, 50.0f));  // far: another species
     EXPECT_NEAR(agent.broadcast_probability(), 100.0 / 150.0, 1e-6);
-    agent.receive(message(1, 8.9f, 150.0f));  // its companion: the mean of 50 / 2 and 150 / 2
+    agent.receive(RobotId{9},
+                  message(1, 8.9f, 150.0f));  // its companion: the mean of 50 / 2 and 150 / 2
     EXPECT_NEAR(agent.broadcast_probability(), 100.0 / 150.0, 1e-6);
-    agent.receive(message(1, 8.9f, 250.0f));  // averaged in: 200
+    agent.receive(RobotId{9}, message(1, 8.9f, 250.0f));  // averaged in: 200
     EXPECT_NEAR(agent.broadcast_probability(), 100.0 / (100.0 + (50.0 + 200.0) / 4.0), 1e-6);
 }
 
 TEST_F(AgentTest, TheBroadcastShareFollowsItsFitness) {
     settings_.fitness_period_cycles = 1;
     Agent agent = make_agent();
-    agent.receive(message(0, 9.0f, 50.0f));
+    agent.receive(RobotId{9}, message(0, 9.0f, 50.0f));
     ASSERT_NEAR(agent.broadcast_probability(), 100.0 / 150.0, 1e-6);
     agent.spend(-100.0f);  // fitness: the mean of 100 and 0
     EXPECT_NEAR(agent.broadcast_probability(), 0.5, 1e-6);
@@ -106,7 +108,7 @@ TEST_F(AgentTest, AMessageCarriesTheActiveGenomeTheEnergyAndTheStamp) {
     EXPECT_EQ(sent.genome.get(), &agent.active());
     EXPECT_EQ(sent.energy, 70.0f);
     EXPECT_EQ(sent.stamp, Stamp{genesis_marks + 1});
-    EXPECT_EQ(agent.receive(message(0, 9.0f, 1.0f, 500)), Reception::accepted);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 1.0f, 500)), Reception::accepted);
     EXPECT_EQ(agent.message().stamp, Stamp{500});
 }
 
@@ -114,8 +116,8 @@ TEST_F(AgentTest, AMessageCarriesTheActiveGenomeTheEnergyAndTheStamp) {
 
 TEST_F(AgentTest, AcceptsAnyGenomeWhileThereIsRoom) {
     Agent agent = make_agent();
-    EXPECT_EQ(agent.receive(message(0, 9.0f, 0.0f)), Reception::accepted);
-    EXPECT_EQ(agent.receive(message(1, -9.0f, 0.0f)), Reception::accepted);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 0.0f)), Reception::accepted);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(1, -9.0f, 0.0f)), Reception::accepted);
     EXPECT_EQ(agent.population().members().size(), 3u);
     EXPECT_EQ(agent.population().species_count(), 3u);
     EXPECT_EQ(agent.tabu_list().size(), 0u);
@@ -123,23 +125,23 @@ TEST_F(AgentTest, AcceptsAnyGenomeWhileThereIsRoom) {
 
 TEST_F(AgentTest, AFullPopulationTakesAFitterGenomeForItsWorst) {
     Agent agent = make_agent();
-    agent.receive(message(0, 9.0f, 20.0f));
-    agent.receive(message(1, -9.0f, 30.0f));
-    EXPECT_EQ(agent.receive(message(2, 5.0f, 25.0f)), Reception::accepted);
+    agent.receive(RobotId{9}, message(0, 9.0f, 20.0f));
+    agent.receive(RobotId{9}, message(1, -9.0f, 30.0f));
+    EXPECT_EQ(agent.receive(RobotId{9}, message(2, 5.0f, 25.0f)), Reception::accepted);
     EXPECT_FALSE(holds(agent, {RobotId{9}, 0}));
     EXPECT_TRUE(holds(agent, {RobotId{9}, 2}));
     EXPECT_EQ(fitness_of(agent, {RobotId{9}, 2}), 25.0f);
     EXPECT_EQ(agent.tabu_list().size(), 1u);
     // What was dropped is known as poor.
-    EXPECT_EQ(agent.receive(message(0, 9.0f, 200.0f)), Reception::tabu);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 200.0f)), Reception::tabu);
 }
 
 TEST_F(AgentTest, AFullPopulationRefusesAGenomeThatIsNoFitter) {
     Agent agent = make_agent();
-    agent.receive(message(0, 9.0f, 20.0f));
-    agent.receive(message(1, -9.0f, 30.0f));
+    agent.receive(RobotId{9}, message(0, 9.0f, 20.0f));
+    agent.receive(RobotId{9}, message(1, -9.0f, 30.0f));
     const auto before = ids(agent);
-    EXPECT_EQ(agent.receive(message(2, 5.0f, 20.0f)), Reception::unfit);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(2, 5.0f, 20.0f)), Reception::unfit);
     EXPECT_EQ(ids(agent), before);
     EXPECT_EQ(agent.tabu_list().size(), 0u);
 }
@@ -147,11 +149,11 @@ TEST_F(AgentTest, AFullPopulationRefusesAGenomeThatIsNoFitter) {
 TEST_F(AgentTest, TheActiveGenomeIsNeverEvicted) {
     settings_.fitness_period_cycles = 1;
     Agent agent = make_agent();
-    agent.receive(message(0, 9.0f, 120.0f));
-    agent.receive(message(1, -9.0f, 130.0f));
+    agent.receive(RobotId{9}, message(0, 9.0f, 120.0f));
+    agent.receive(RobotId{9}, message(1, -9.0f, 130.0f));
     agent.spend(-100.0f);  // the active genome is the worst by far now
-    EXPECT_EQ(agent.receive(message(2, 5.0f, 110.0f)), Reception::unfit);
-    EXPECT_EQ(agent.receive(message(2, 5.0f, 125.0f)), Reception::accepted);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(2, 5.0f, 110.0f)), Reception::unfit);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(2, 5.0f, 125.0f)), Reception::accepted);
     EXPECT_TRUE(holds(agent, agent.active().id));
     EXPECT_FALSE(holds(agent, {RobotId{9}, 0}));
 }
@@ -159,7 +161,7 @@ TEST_F(AgentTest, TheActiveGenomeIsNeverEvicted) {
 TEST_F(AgentTest, APopulationOfOneHoldsTheActiveGenomeAlone) {
     settings_.population = 1;
     Agent agent = make_agent();
-    EXPECT_EQ(agent.receive(message(0, 9.0f, 200.0f)), Reception::unfit);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 200.0f)), Reception::unfit);
     const GenomeId first = agent.active().id;
     agent.spend(-100.0f);
     agent.replace(0.0);
@@ -170,10 +172,10 @@ TEST_F(AgentTest, APopulationOfOneHoldsTheActiveGenomeAlone) {
 TEST_F(AgentTest, TheEnergyOfAHeldGenomeIsAveragedIn) {
     settings_.held_energy = HeldEnergy::running_mean;
     Agent agent = make_agent();
-    EXPECT_EQ(agent.receive(message(0, 9.0f, 20.0f)), Reception::accepted);
-    EXPECT_EQ(agent.receive(message(0, 9.0f, 40.0f)), Reception::updated);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 20.0f)), Reception::accepted);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 40.0f)), Reception::updated);
     EXPECT_FLOAT_EQ(fitness_of(agent, {RobotId{9}, 0}), 30.0f);
-    EXPECT_EQ(agent.receive(message(0, 9.0f, 90.0f)), Reception::updated);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 90.0f)), Reception::updated);
     EXPECT_FLOAT_EQ(fitness_of(agent, {RobotId{9}, 0}), 50.0f);
     EXPECT_EQ(agent.population().members().size(), 2u);
 }
@@ -181,18 +183,18 @@ TEST_F(AgentTest, TheEnergyOfAHeldGenomeIsAveragedIn) {
 TEST_F(AgentTest, TheEnergyOfAHeldGenomeIsOverwrittenWhereTheSettingsSaySo) {
     settings_.held_energy = HeldEnergy::overwrite;
     Agent agent = make_agent();
-    agent.receive(message(0, 9.0f, 20.0f));
-    EXPECT_EQ(agent.receive(message(0, 9.0f, 40.0f)), Reception::updated);
+    agent.receive(RobotId{9}, message(0, 9.0f, 20.0f));
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 40.0f)), Reception::updated);
     EXPECT_EQ(fitness_of(agent, {RobotId{9}, 0}), 40.0f);
 }
 
 TEST_F(AgentTest, EveryReportOfAHeldGenomeCounts) {
     settings_.held_energy = HeldEnergy::overwrite;
     Agent agent = make_agent();
-    agent.receive(message(0, 9.0f, 50.0f));
-    agent.receive(message(1, -9.0f, 40.0f));
+    agent.receive(RobotId{9}, message(0, 9.0f, 50.0f));
+    agent.receive(RobotId{9}, message(1, -9.0f, 40.0f));
     // Full, and a new genome with this energy would not be accepted.
-    EXPECT_EQ(agent.receive(message(0, 9.0f, 30.0f)), Reception::updated);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 30.0f)), Reception::updated);
     EXPECT_EQ(fitness_of(agent, {RobotId{9}, 0}), 30.0f);
 }
 
@@ -200,45 +202,45 @@ TEST_F(AgentTest, AHeldGenomeMustPassTheAcceptanceTestFirstWhereTheSettingsSaySo
     settings_.held_energy = HeldEnergy::overwrite;
     settings_.held_reports = HeldReports::acceptable;
     Agent agent = make_agent();
-    agent.receive(message(0, 9.0f, 50.0f));
-    agent.receive(message(1, -9.0f, 40.0f));
+    agent.receive(RobotId{9}, message(0, 9.0f, 50.0f));
+    agent.receive(RobotId{9}, message(1, -9.0f, 40.0f));
     // Full, and no fitter than the worst: not even that genome's own entry changes.
-    EXPECT_EQ(agent.receive(message(0, 9.0f, 40.0f)), Reception::unfit);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 40.0f)), Reception::unfit);
     EXPECT_EQ(fitness_of(agent, {RobotId{9}, 0}), 50.0f);
-    EXPECT_EQ(agent.receive(message(0, 9.0f, 41.0f)), Reception::updated);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 41.0f)), Reception::updated);
     EXPECT_EQ(fitness_of(agent, {RobotId{9}, 0}), 41.0f);
 }
 
 TEST_F(AgentTest, TheTabuListIsAskedBeforeThePopulation) {
     Agent agent = make_agent();
-    agent.receive(message(0, 9.0f, 20.0f));
-    agent.receive(message(1, -9.0f, 30.0f));
-    agent.receive(message(2, 5.0f, 25.0f));  // drops genome 0
+    agent.receive(RobotId{9}, message(0, 9.0f, 20.0f));
+    agent.receive(RobotId{9}, message(1, -9.0f, 30.0f));
+    agent.receive(RobotId{9}, message(2, 5.0f, 25.0f));  // drops genome 0
     // Both tabu and unfit: a tabu genome renews its entry although it would not be accepted.
     for (int i = 0; i < 200; ++i) {
-        ASSERT_EQ(agent.receive(message(0, 9.0f, 0.0f)), Reception::tabu);
+        ASSERT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 0.0f)), Reception::tabu);
     }
     EXPECT_EQ(agent.tabu_list().size(), 1u);
     // And an unfit one ages the entries.
     for (int i = 0; i < 50; ++i) {
-        ASSERT_EQ(agent.receive(message(3, 0.0f, 0.0f)), Reception::unfit);
+        ASSERT_EQ(agent.receive(RobotId{9}, message(3, 0.0f, 0.0f)), Reception::unfit);
     }
     EXPECT_EQ(agent.tabu_list().size(), 0u);
 }
 
 TEST_F(AgentTest, TheClockAdvancesOnEveryMessageAcceptedOrNot) {
     Agent agent = make_agent();
-    ASSERT_EQ(agent.receive(message(0, 9.0f, 20.0f, 100)), Reception::accepted);
+    ASSERT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 20.0f, 100)), Reception::accepted);
     EXPECT_EQ(agent.source().stamp(), Stamp{100});
-    ASSERT_EQ(agent.receive(message(0, 9.0f, 30.0f, 200)), Reception::updated);
+    ASSERT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 30.0f, 200)), Reception::updated);
     EXPECT_EQ(agent.source().stamp(), Stamp{200});
-    agent.receive(message(1, -9.0f, 30.0f));
-    ASSERT_EQ(agent.receive(message(2, 5.0f, 0.0f, 300)), Reception::unfit);
+    agent.receive(RobotId{9}, message(1, -9.0f, 30.0f));
+    ASSERT_EQ(agent.receive(RobotId{9}, message(2, 5.0f, 0.0f, 300)), Reception::unfit);
     EXPECT_EQ(agent.source().stamp(), Stamp{300});
-    agent.receive(message(2, 5.0f, 40.0f));  // drops genome 0
-    ASSERT_EQ(agent.receive(message(0, 9.0f, 30.0f, 400)), Reception::tabu);
+    agent.receive(RobotId{9}, message(2, 5.0f, 40.0f));  // drops genome 0
+    ASSERT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 30.0f, 400)), Reception::tabu);
     EXPECT_EQ(agent.source().stamp(), Stamp{400});
-    ASSERT_EQ(agent.receive(message(0, 9.0f, 30.0f, 350)), Reception::tabu);
+    ASSERT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 30.0f, 350)), Reception::tabu);
     EXPECT_EQ(agent.source().stamp(), Stamp{400});
 }
 
@@ -267,9 +269,9 @@ TEST_F(AgentTest, AMessageWhoseStampIsRefusedLeavesNoTrace) {
     settings_.tabu_receptions = 2;
     Agent agent(RobotId{1}, settings_, topology_, std::make_unique<WaryClockSource>(),
                 RandomStream(1, 1));
-    agent.receive(message(0, 9.0f, 20.0f));
-    agent.receive(message(1, -9.0f, 30.0f));
-    agent.receive(message(2, 5.0f, 25.0f, 7));  // drops genome 0, which is tabu now
+    agent.receive(RobotId{9}, message(0, 9.0f, 20.0f));
+    agent.receive(RobotId{9}, message(1, -9.0f, 30.0f));
+    agent.receive(RobotId{9}, message(2, 5.0f, 25.0f, 7));  // drops genome 0, which is tabu now
     const auto before = ids(agent);
     const double share = agent.broadcast_probability();
     const RandomStream random = agent.random();
@@ -277,7 +279,8 @@ TEST_F(AgentTest, AMessageWhoseStampIsRefusedLeavesNoTrace) {
         // Fit to be accepted; held already; and of the kind that ages or renews the tabu entry.
         for (const std::uint32_t birth : {0u, 1u, 3u}) {
             const float weight = birth == 0 ? 9.0f : birth == 1 ? -9.0f : 1.0f;
-            ASSERT_EQ(agent.receive(message(birth, weight, 190.0f, 1001)), Reception::refused);
+            ASSERT_EQ(agent.receive(RobotId{9}, message(birth, weight, 190.0f, 1001)),
+                      Reception::refused);
         }
     }
     EXPECT_EQ(ids(agent), before);
@@ -289,9 +292,9 @@ TEST_F(AgentTest, AMessageWhoseStampIsRefusedLeavesNoTrace) {
     EXPECT_EQ(now.bits(), untouched.bits());
     // The tabu entry is as old as it was: it leaves at its second other reception.
     ASSERT_EQ(agent.tabu_list().size(), 1u);
-    agent.receive(message(1, -9.0f, 0.0f));
+    agent.receive(RobotId{9}, message(1, -9.0f, 0.0f));
     EXPECT_EQ(agent.tabu_list().size(), 1u);
-    agent.receive(message(1, -9.0f, 0.0f));
+    agent.receive(RobotId{9}, message(1, -9.0f, 0.0f));
     EXPECT_EQ(agent.tabu_list().size(), 0u);
 }
 
@@ -384,11 +387,155 @@ TEST_F(AgentTest, AReplacementStartsAnewWithAnOffspringOfItsPopulation) {
     EXPECT_EQ(agent.tabu_list().size(), 1u);
 }
 
+// ---- Whom an agent believes ----
+
+TEST_F(AgentTest, TakesAGenomeFromNobodyButItsMaker) {
+    Agent agent = make_agent();
+    const Message of_nine = message(0, 9.0f, 50.0f, 500);
+    for (const std::uint32_t sender : {0u, 1u, 8u, 10u}) {
+        EXPECT_EQ(agent.receive(RobotId{sender}, of_nine), Reception::not_its_maker) << sender;
+    }
+    EXPECT_EQ(agent.source().stamp(), Stamp{genesis_marks + 1}) << "it was dropped whole";
+    EXPECT_EQ(agent.receive(RobotId{9}, of_nine), Reception::accepted);
+    EXPECT_EQ(agent.receive(RobotId{8}, message(0, 9.0f, 150.0f)), Reception::not_its_maker);
+    EXPECT_EQ(fitness_of(agent, {RobotId{9}, 0}), 50.0f) << "nobody else has its energy";
+}
+
+// Neither a stranger who speaks as someone else, nor an echo: nothing that is heard is one's own.
+TEST_F(AgentTest, HearsNothingAboutItsOwnGenomes) {
+    Agent agent = make_agent();
+    Message own = agent.message();
+    const GenomeId next{RobotId{1}, agent.active().id.birth + 1};
+    for (const std::uint32_t sender : {1u, 9u}) {
+        for (const float energy : {0.0f, 150.0f}) {
+            own.energy = energy;
+            EXPECT_EQ(agent.receive(RobotId{sender}, own), Reception::not_its_maker);
+        }
+        Genome stolen = *message(0, 9.0f, 0.0f).genome;
+        stolen.id = next;
+        EXPECT_EQ(agent.receive(RobotId{sender},
+                                {std::make_shared<const Genome>(std::move(stolen)), 150.0f, {}}),
+                  Reception::not_its_maker);
+    }
+    EXPECT_EQ(fitness_of(agent, agent.active().id), 100.0f);
+    EXPECT_EQ(agent.fitness(), 100.0f);
+    agent.replace(0.0);
+    EXPECT_EQ(agent.active().id, next);
+    EXPECT_EQ(agent.population().members().size(), 2u);
+}
+
+TEST_F(AgentTest, RefusesEnergiesThatNoRobotHas) {
+    const float inf = std::numeric_limits<float>::infinity();
+    settings_.energy_maximum = 150.0;
+    Agent agent = make_agent();
+    for (const float energy : {-1.0f, -std::numeric_limits<float>::denorm_min(), 150.001f, 1e30f,
+                               inf, -inf, std::numeric_limits<float>::quiet_NaN()}) {
+        EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, energy, 500)),
+                  Reception::impossible_energy)
+            << energy;
+    }
+    EXPECT_EQ(agent.source().stamp(), Stamp{genesis_marks + 1});
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 150.0f)), Reception::accepted);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(1, 5.0f, 0.0f)), Reception::accepted);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(1, 5.0f, 151.0f)), Reception::impossible_energy);
+    EXPECT_EQ(fitness_of(agent, {RobotId{9}, 1}), 0.0f);
+}
+
+TEST_F(AgentTest, BelievesTheEnergyOfAGenomeThatHasNotLived) {
+    settings_.energy_initial = 300.0;  // beyond the maximum, until its first cycle
+    Agent agent = make_agent();
+    EXPECT_EQ(agent.receive(RobotId{2}, make_agent(2).message()), Reception::accepted);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 300.5f)), Reception::impossible_energy);
+}
+
+TEST_F(AgentTest, GivesARobotNoMoreThanItsShareOfThePopulation) {
+    settings_.population = 5;
+    Agent agent(RobotId{1}, settings_, topology_,
+                std::make_unique<GeneClockSource>(RobotId{1}, genesis_marks), RandomStream(1, 1),
+                {.members_per_maker = 2});
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 50.0f)), Reception::accepted);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(1, -9.0f, 40.0f)), Reception::accepted);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(2, 5.0f, 40.0f)), Reception::unfit)
+        << "there is room, but not for a third, unless it is fitter than one of them";
+    EXPECT_EQ(agent.receive(RobotId{9}, message(2, 5.0f, 60.0f)), Reception::accepted);
+    EXPECT_FALSE(holds(agent, {RobotId{9}, 1})) << "the less fit of the two";
+    EXPECT_EQ(agent.tabu_list().size(), 0u) << "nobody fills the list of another";
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 70.0f)), Reception::updated);
+    EXPECT_EQ(agent.population().members().size(), 3u);
+
+    Genome of_eight = *message(0, -9.0f, 0.0f).genome;
+    of_eight.id.robot = RobotId{8};
+    const Message from_eight{std::make_shared<const Genome>(std::move(of_eight)), 0.0f, {}};
+    EXPECT_EQ(agent.receive(RobotId{8}, from_eight), Reception::accepted) << "another's share";
+}
+
+TEST_F(AgentTest, KeepsPlacesForItsOwnGenomes) {
+    settings_.population = 5;
+    Agent agent(RobotId{1}, settings_, topology_,
+                std::make_unique<GeneClockSource>(RobotId{1}, genesis_marks), RandomStream(1, 1),
+                {.members_of_others = 2});
+    const auto from = [&](std::uint32_t robot, float weight, float energy) {
+        Genome genome = *message(0, weight, 0.0f).genome;
+        genome.id.robot = RobotId{robot};
+        return agent.receive(RobotId{robot},
+                             {std::make_shared<const Genome>(std::move(genome)), energy, {}});
+    };
+    EXPECT_EQ(from(7, 9.0f, 50.0f), Reception::accepted);
+    EXPECT_EQ(from(8, -9.0f, 40.0f), Reception::accepted);
+    EXPECT_EQ(from(9, 5.0f, 40.0f), Reception::unfit) << "the others have their places";
+    EXPECT_EQ(from(9, 5.0f, 41.0f), Reception::accepted);
+    EXPECT_FALSE(holds(agent, {RobotId{8}, 0}));
+    EXPECT_EQ(agent.tabu_list().size(), 0u);
+    for (int births = 0; births < 3; ++births) agent.replace(0.0);
+    const auto held = ids(agent);
+    EXPECT_EQ(held.size(), 5u);
+    EXPECT_EQ(
+        std::count_if(held.begin(), held.end(), [](GenomeId id) { return id.robot == RobotId{1}; }),
+        4)
+        << "of its own, which may have as many places as they like";
+}
+
+TEST_F(AgentTest, MayBelieveThatNobodyIsFitterThanItsOwn) {
+    Agent agent(RobotId{1}, settings_, topology_,
+                std::make_unique<GeneClockSource>(RobotId{1}, genesis_marks), RandomStream(1, 1),
+                {.may_excel = false});
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 199.0f)), Reception::accepted);
+    EXPECT_EQ(fitness_of(agent, {RobotId{9}, 0}), 100.0f) << "what its own active genome has";
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 50.0f)), Reception::updated);
+    EXPECT_EQ(fitness_of(agent, {RobotId{9}, 0}), 75.0f);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(1, -9.0f, 30.0f)), Reception::accepted);
+    EXPECT_EQ(fitness_of(agent, {RobotId{9}, 1}), 30.0f);
+}
+
+// Whatever the caller does with its own: agents of a swarm share what they were made with.
+TEST_F(AgentTest, KeepsItsSettings) {
+    auto given = std::make_unique<OdneatSettings>(settings_);
+    Agent agent(RobotId{1}, *given, topology_,
+                std::make_unique<GeneClockSource>(RobotId{1}, genesis_marks), RandomStream(1, 1));
+    given->population = 1;
+    given.reset();
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 50.0f)), Reception::accepted);
+    agent.replace(0.0);
+    agent.reboot(topology_);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 50.0f)), Reception::accepted);
+
+    Agent by_default{RobotId{1},
+                     {},
+                     topology_,
+                     std::make_unique<GeneClockSource>(RobotId{1}, genesis_marks),
+                     RandomStream(1, 1)};
+    by_default.spend(-10.0f);
+    EXPECT_EQ(by_default.energy(), 90.0f);
+}
+
 TEST_F(AgentTest, TheDeadGenomeIsTabu) {
     Agent agent = make_agent(4);
-    const Message of_the_dead = agent.message();
+    Message like_the_dead = agent.message();
+    auto genome = std::make_shared<Genome>(agent.active());
+    genome->id = {RobotId{9}, 0};
+    like_the_dead.genome = std::move(genome);
     agent.replace(0.0);
-    EXPECT_EQ(agent.receive(of_the_dead), Reception::tabu);
+    EXPECT_EQ(agent.receive(RobotId{9}, like_the_dead), Reception::tabu);
 }
 
 TEST_F(AgentTest, TheOffspringCountsItsOwnAgeAndSamples) {
@@ -417,7 +564,7 @@ TEST_F(AgentTest, TheControllerIsThatOfTheOffspring) {
 TEST_F(AgentTest, TheShareIsThatOfTheOffspring) {
     settings_.population = 4;
     Agent agent = make_agent();
-    agent.receive(message(0, 9.0f, 50.0f));
+    agent.receive(RobotId{9}, message(0, 9.0f, 50.0f));
     ASSERT_NEAR(agent.broadcast_probability(), 100.0 / 150.0, 1e-6);
     const auto dead = agent.message().genome;
     agent.replace(0.0);
@@ -430,21 +577,21 @@ TEST_F(AgentTest, TheShareIsThatOfTheOffspring) {
 
 TEST_F(AgentTest, AFullPopulationDropsItsWorstForTheOffspring) {
     Agent agent = make_agent();
-    agent.receive(message(0, 9.0f, 20.0f));
-    agent.receive(message(1, -9.0f, 90.0f));
+    agent.receive(RobotId{9}, message(0, 9.0f, 20.0f));
+    agent.receive(RobotId{9}, message(1, -9.0f, 90.0f));
     const GenomeId dead = agent.active().id;
     agent.replace(0.0);
     // The dead genome's recorded fitness is still 100: genome 0 is the worst.
     EXPECT_EQ(ids(agent), (std::vector<GenomeId>{dead, {RobotId{9}, 1}, agent.active().id}));
     EXPECT_EQ(agent.tabu_list().size(), 2u);
-    EXPECT_EQ(agent.receive(message(0, 9.0f, 200.0f)), Reception::tabu);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 200.0f)), Reception::tabu);
 }
 
 TEST_F(AgentTest, TheDeadGenomeMayBeTheWorstAndIsListedOnce) {
     settings_.fitness_period_cycles = 1;
     Agent agent = make_agent();
-    agent.receive(message(0, 9.0f, 80.0f));
-    agent.receive(message(1, -9.0f, 90.0f));
+    agent.receive(RobotId{9}, message(0, 9.0f, 80.0f));
+    agent.receive(RobotId{9}, message(1, -9.0f, 90.0f));
     const GenomeId dead = agent.active().id;
     for (int i = 0; i < 100; ++i) agent.spend(-100.0f);
     agent.replace(0.0);
@@ -459,7 +606,7 @@ TEST_F(AgentTest, TheDeadGenomeIsStillAParent) {
     constexpr int births = 2000;
     for (std::uint32_t i = 0; i < births; ++i) {
         Agent agent = make_agent(100 + i);
-        agent.receive(message(0, 9.0f, 100.0f));
+        agent.receive(RobotId{9}, message(0, 9.0f, 100.0f));
         const auto dead = agent.message().genome;
         agent.replace(0.0);
         of_the_dead += agent.active().weights == dead->weights ? 1 : 0;
@@ -468,12 +615,14 @@ TEST_F(AgentTest, TheDeadGenomeIsStillAParent) {
 }
 
 TEST_F(AgentTest, AllMembersAreDividedAnewAtABirth) {
+    settings_.energy_maximum = 500.0;
     settings_.population = 4;
     settings_.c_weight = 1.0 / static_cast<double>(inputs * outputs);  // distance = |Δ weight|
     Agent agent = make_agent();
-    agent.receive(message(0, 10.0f, 1.0f));  // founds a species
-    agent.receive(message(1, 8.0f, 500.0f));
-    agent.receive(message(2, 6.0f, 400.0f));  // 4 from the representative: a third species
+    agent.receive(RobotId{9}, message(0, 10.0f, 1.0f));  // founds a species
+    agent.receive(RobotId{9}, message(1, 8.0f, 500.0f));
+    agent.receive(RobotId{9},
+                  message(2, 6.0f, 400.0f));  // 4 from the representative: a third species
     ASSERT_EQ(agent.population().species_count(), 3u);
     // Genome 0, the worst, leaves; genome 1 founds the species, and genome 2 is near it.
     agent.replace(0.0);
@@ -493,7 +642,7 @@ TEST_F(AgentTest, MatesOnlyTwoDifferentGenomes) {
     // Two members of a species give the same parent in every draw: the fitter of the two.
     settings_.c_weight = 0.0;
     Agent two = make_agent();
-    two.receive(message(0, 9.0f, 50.0f));
+    two.receive(RobotId{9}, message(0, 9.0f, 50.0f));
     EXPECT_FALSE(two.replace(0.0).mated);
 
     settings_.population = 4;
@@ -502,8 +651,8 @@ TEST_F(AgentTest, MatesOnlyTwoDifferentGenomes) {
     constexpr int births = 2000;
     for (std::uint32_t i = 0; i < births; ++i) {
         Agent three = make_agent(100 + i);
-        three.receive(message(0, 9.0f, 50.0f));
-        three.receive(message(1, -9.0f, 60.0f));
+        three.receive(RobotId{9}, message(0, 9.0f, 50.0f));
+        three.receive(RobotId{9}, message(1, -9.0f, 60.0f));
         const auto active = three.message().genome;
         const bool is_mated = three.replace(0.0).mated;
         mated += is_mated ? 1 : 0;
@@ -540,7 +689,7 @@ TEST_F(AgentTest, EachParentHasItsOwnFitness) {
             add_gene(*genome, mark(91, 9), {genesis(1), mark(90, 9), false}, 1.0f);
             add_gene(*genome, mark(92, 9), {mark(90, 9), genesis(inputs + 1), false}, 1.0f);
             large.genome = std::move(genome);
-            ASSERT_EQ(agent.receive(large), Reception::accepted);
+            ASSERT_EQ(agent.receive(RobotId{9}, large), Reception::accepted);
             const Birth birth = agent.replace(0.0);
             ASSERT_TRUE(birth.mated);
             first.insert({birth.first_parent->id.robot == RobotId{9} ? RobotId{9} : RobotId{1}, 0});
@@ -565,7 +714,7 @@ TEST_F(AgentTest, MatesWhomTheSettingsSay) {
             float& weight = genome->weights[0];  // and stays in range
             weight += weight > 0.0f ? -farther_by : farther_by;
             other.genome = std::move(genome);
-            agent.receive(other);
+            agent.receive(RobotId{9}, other);
             mated += agent.replace(0.0).mated ? 1 : 0;
         }
         return mated == 50;
@@ -587,8 +736,8 @@ TEST_F(AgentTest, MatesAndMutatesWithTheirProbabilities) {
     constexpr int births = 4000;
     for (std::uint32_t i = 0; i < births; ++i) {
         Agent agent = make_agent(100 + i);
-        agent.receive(message(0, 9.0f, 50.0f));
-        agent.receive(message(1, -9.0f, 60.0f));
+        agent.receive(RobotId{9}, message(0, 9.0f, 50.0f));
+        agent.receive(RobotId{9}, message(1, -9.0f, 60.0f));
         const Birth birth = agent.replace(0.0);
         mated += birth.mated ? 1 : 0;
         mutated += birth.mutation == Mutation::add_neuron ? 1 : 0;
@@ -602,7 +751,7 @@ TEST_F(AgentTest, MarksTheGenesOfAMutationWithItsOwnClock) {
     settings_.p_mutate = 1.0;
     settings_.p_node = 1.0;
     Agent agent = make_agent(4);
-    agent.receive(message(0, 0.0f, 0.0f, 500));
+    agent.receive(RobotId{9}, message(0, 0.0f, 0.0f, 500));
     ASSERT_EQ(agent.replace(0.0).mutation, Mutation::add_neuron);
     EXPECT_EQ(agent.active().topology->neurons.back().mark, mark(500, 4));
     EXPECT_EQ(agent.active().topology->connection_marks.back(), mark(502, 4));
@@ -623,7 +772,7 @@ TEST_F(AgentTest, ARebootLosesAllButTheClockAndTheIds) {
     settings_.p_mutate = settings_.p_node = 1.0;
     settings_.p_weight = 0.0;
     Agent agent = make_agent();
-    agent.receive(message(0, 9.0f, 50.0f, 100));
+    agent.receive(RobotId{9}, message(0, 9.0f, 50.0f, 100));
     agent.replace(0.0);
     const GenomeId before = agent.active().id;
     const Stamp stamp = agent.source().stamp();

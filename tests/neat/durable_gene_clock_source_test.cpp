@@ -53,6 +53,10 @@ protected:
         return {std::make_shared<const Genome>(std::move(genome)), 50.0f, Stamp{stamp}};
     }
 
+    static Reception hear(Agent& agent, const Message& message) {
+        return agent.receive(message.genome->id.robot, message);
+    }
+
     Genome genome_ = perceptron(2, 1);
     SwitchedStorage storage_{genesis_marks + 1};
 };
@@ -202,7 +206,7 @@ TEST_F(DurableAgentTest, HoldsItsBroadcast) {
     ASSERT_NE(holding.broadcast(), nullptr);
     storage_.works = false;
     // What it heard counts as well: its next genes lie above that.
-    ASSERT_EQ(holding.receive(message({}, 200)), Reception::accepted);
+    ASSERT_EQ(hear(holding, message({}, 200)), Reception::accepted);
     EXPECT_EQ(holding.broadcast(), nullptr);
     storage_.works = true;
     const Message* sent = holding.broadcast();
@@ -222,7 +226,7 @@ TEST_F(DurableAgentTest, SendsNoGenomeIdInTwoLives) {
         const std::uint32_t births = random.below(30);
         for (std::uint32_t i = 0; i <= births; ++i) {
             if (random.chance(0.1)) {
-                ASSERT_NE(living.receive(message({}, living.source().stamp().value + 7)),
+                ASSERT_NE(hear(living, message({}, living.source().stamp().value + 7)),
                           Reception::refused);
             }
             if (random.chance(0.7)) {
@@ -239,7 +243,7 @@ TEST_F(DurableAgentTest, SendsNoGenomeIdInTwoLives) {
 TEST_F(DurableAgentTest, ReportsAMarkOfItsOwnThatItNeverMade) {
     Agent wary = agent();
     const std::size_t members = wary.population().members().size();
-    EXPECT_EQ(wary.receive(message({{150, robot}}, 200)), Reception::identity_conflict);
+    EXPECT_EQ(hear(wary, message({{150, robot}}, 200)), Reception::identity_conflict);
     EXPECT_EQ(source_->gate().conflicting_mark(), (InnovationNumber{150, robot}));
     EXPECT_EQ(wary.population().members().size(), members);
     EXPECT_EQ(source_->stamp(), Stamp{genesis_marks + 1});
@@ -250,18 +254,18 @@ TEST_F(DurableAgentTest, LooksAtTheMarksOfConnectionsToo) {
     auto genome = perceptron(2, 1);
     add_hidden(genome, mark(150, 9));
     add_gene(genome, mark(151, 5), {genesis(1), mark(150, 9), false});
-    EXPECT_EQ(wary.receive(message_of(genome, {}, 200)), Reception::identity_conflict);
+    EXPECT_EQ(hear(wary, message_of(genome, {}, 200)), Reception::identity_conflict);
     EXPECT_EQ(source_->gate().conflicting_mark(), (InnovationNumber{151, robot}));
 }
 
 TEST_F(DurableAgentTest, RefusesWhatTheGateRefusesAndLaterAdmitsIt) {
     Agent paced = agent({.allowance = 10, .per_cycle = 5});
-    EXPECT_EQ(paced.receive(message({{30, RobotId{9}}}, 31)), Reception::refused);
-    EXPECT_EQ(paced.receive(message({{31, RobotId{9}}}, 31)), Reception::refused);
+    EXPECT_EQ(hear(paced, message({{30, RobotId{9}}}, 31)), Reception::refused);
+    EXPECT_EQ(hear(paced, message({{31, RobotId{9}}}, 31)), Reception::refused);
     EXPECT_EQ(source_->gate().counts()[Admission::beyond_allowance], 1u);
     EXPECT_EQ(source_->gate().counts()[Admission::gene_not_covered], 1u);
     for (int cycle = 0; cycle < 3; ++cycle) source_->elapse();
-    EXPECT_EQ(paced.receive(message({{30, RobotId{9}}}, 31)), Reception::accepted);
+    EXPECT_EQ(hear(paced, message({{30, RobotId{9}}}, 31)), Reception::accepted);
 }
 
 }  // namespace

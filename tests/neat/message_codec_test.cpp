@@ -92,7 +92,7 @@ TEST_F(MessageCodecTest, AnAgentTakesWhatTheCodecGives) {
                 RandomStream(1, 1));
     const auto received = codec_.decode(frame_of(message_of(split(), {15})));
     ASSERT_TRUE(received);
-    EXPECT_EQ(agent.receive(received->message), Reception::accepted);
+    EXPECT_EQ(agent.receive(received->sender, received->message), Reception::accepted);
     EXPECT_EQ(agent.source().stamp(), Stamp{15});
 }
 

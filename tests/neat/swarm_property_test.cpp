@@ -129,7 +129,7 @@ private:
             for (std::size_t i = 0; i < history.size(); ++i) {
                 history[i] = std::max(history[i], letter.history[i]);
             }
-            agents_[letter.to].receive(letter.message);
+            agents_[letter.to].receive(letter.message.genome->id.robot, letter.message);
         }
     }
 

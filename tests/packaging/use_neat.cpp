@@ -18,7 +18,7 @@ int main() {
     neat::Agent first = make_agent(1);
     neat::Agent second = make_agent(2);
 
-    const neat::Reception reception = second.receive(first.message());
+    const neat::Reception reception = second.receive(first.robot(), first.message());
     const auto outputs = second.control(std::array{0.5f, 0.25f, 1.0f});
     std::printf("outputs: %g %g\n", static_cast<double>(outputs[0]),
                 static_cast<double>(outputs[1]));

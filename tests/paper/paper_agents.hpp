@@ -33,7 +33,6 @@ inline std::shared_ptr<const Topology> topology() {
     return shared;
 }
 
-/// `settings` must outlive the robot.
 inline Agent make_robot(std::uint32_t robot, const OdneatSettings& settings,
                         std::uint64_t seed = 1) {
     return Agent(

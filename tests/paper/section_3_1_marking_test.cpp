@@ -139,9 +139,9 @@ TEST(Section31, RobotsBroadcastTheirCounterAndTakeTheMaximum) {
     for (int birth = 0; birth < 5; ++birth) ahead.replace(0.0);
     ASSERT_GT(ahead.message().stamp, behind.message().stamp);
     const Stamp stamp = ahead.message().stamp;
-    behind.receive(ahead.message());
+    behind.receive(RobotId{1}, ahead.message());
     EXPECT_EQ(behind.message().stamp, stamp);
-    ahead.receive(behind.message());
+    ahead.receive(RobotId{2}, behind.message());
     EXPECT_EQ(ahead.message().stamp, stamp);
     // A gene that the receiver makes now sorts after all that the sender had made.
     behind.replace(0.0);

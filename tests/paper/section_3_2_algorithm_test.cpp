@@ -30,13 +30,14 @@ TEST(Section32, TheFirstActiveGenomeIsAFullyConnectedPerceptron) {
 TEST(Section32, TheProbabilityOfABroadcastIsProportionalToTheSpeciesFitness) {
     OdneatSettings settings = calm_settings();
     settings.energy_initial = 50.0;
+    settings.energy_maximum = 250.0;
     Agent poor = make_robot(1, settings);
     OdneatSettings double_settings = settings;
     double_settings.energy_initial = 100.0;
     Agent rich = make_robot(1, double_settings);
     // The rest of the population is the same: one species, of such fitness that the sum is 300.
-    poor.receive({genome_of(0, 10.0f), 250.0f, {}});
-    rich.receive({genome_of(0, 10.0f), 200.0f, {}});
+    poor.receive(RobotId{99}, {genome_of(0, 10.0f), 250.0f, {}});
+    rich.receive(RobotId{99}, {genome_of(0, 10.0f), 200.0f, {}});
     ASSERT_EQ(poor.population().species_count(), 2u);
     EXPECT_NEAR(poor.broadcast_probability(), 50.0 / 300.0, 1e-6);
     EXPECT_NEAR(rich.broadcast_probability(), 100.0 / 300.0, 1e-6);
@@ -49,13 +50,14 @@ TEST(Section32, ThePopulationHoldsReceivedAndPreviousActiveGenomes) {
     settings.population = 4;
     Agent robot = make_robot(1, settings);
     const GenomeId previous = robot.active().id;
-    robot.receive({genome_of(0, 10.0f), 60.0f, {}});
+    robot.receive(RobotId{99}, {genome_of(0, 10.0f), 60.0f, {}});
     robot.replace(0.0);
     EXPECT_TRUE(holds(robot, previous));
     EXPECT_TRUE(holds(robot, {RobotId{99}, 0}));
     EXPECT_TRUE(holds(robot, robot.active().id));
     for (std::uint32_t i = 1; i < 20; ++i) {
         robot.receive(
+            RobotId{99},
             {genome_of(i, static_cast<float>(i) - 10.0f), 60.0f + static_cast<float>(i), {}});
         EXPECT_LE(robot.population().members().size(), 4u);
     }
@@ -67,13 +69,13 @@ TEST(Section32, AFitGenomeReplacesTheWorstOfAFullPopulation) {
     OdneatSettings settings = calm_settings();
     settings.population = 3;
     Agent robot = make_robot(1, settings);
-    robot.receive({genome_of(0, 10.0f), 40.0f, {}});
-    robot.receive({genome_of(1, -10.0f), 30.0f, {}});
-    EXPECT_EQ(robot.receive({genome_of(2, 5.0f), 35.0f, {}}), Reception::accepted);
+    robot.receive(RobotId{99}, {genome_of(0, 10.0f), 40.0f, {}});
+    robot.receive(RobotId{99}, {genome_of(1, -10.0f), 30.0f, {}});
+    EXPECT_EQ(robot.receive(RobotId{99}, {genome_of(2, 5.0f), 35.0f, {}}), Reception::accepted);
     EXPECT_TRUE(holds(robot, {RobotId{99}, 0}));
     EXPECT_FALSE(holds(robot, {RobotId{99}, 1}));
     EXPECT_TRUE(holds(robot, {RobotId{99}, 2}));
-    EXPECT_EQ(robot.receive({genome_of(3, -5.0f), 35.0f, {}}), Reception::unfit);
+    EXPECT_EQ(robot.receive(RobotId{99}, {genome_of(3, -5.0f), 35.0f, {}}), Reception::unfit);
 }
 
 // Algorithm 1: "e ← e + ΔE/Δt"
@@ -149,8 +151,8 @@ TEST(Section32, ABroadcastHasTheActiveGenomeTheEnergyAndTheCounter) {
 TEST(Section32, TheEnergyOfAGenomeReceivedTwiceIsAveraged) {
     const OdneatSettings settings = calm_settings();
     Agent robot = make_robot(1, settings);
-    robot.receive({genome_of(0, 10.0f), 60.0f, {}});
-    EXPECT_EQ(robot.receive({genome_of(0, 10.0f), 90.0f, {}}), Reception::updated);
+    robot.receive(RobotId{99}, {genome_of(0, 10.0f), 60.0f, {}});
+    EXPECT_EQ(robot.receive(RobotId{99}, {genome_of(0, 10.0f), 90.0f, {}}), Reception::updated);
     const auto held = robot.population().find({RobotId{99}, 0});
     EXPECT_FLOAT_EQ(robot.population().members()[held.value()].fitness, 75.0f);
 }
@@ -182,7 +184,8 @@ TEST(Section32, AnOffspringHasTwoParentsOfOneSpeciesOrOne) {
         for (std::uint32_t i = 0; i < births; ++i) {
             Agent robot = make_robot(1, settings, i);
             for (std::uint32_t other = 0; other < 3; ++other) {
-                robot.receive({genome_of(other, 5.0f + static_cast<float>(other)), 90.0f, {}});
+                robot.receive(RobotId{99},
+                              {genome_of(other, 5.0f + static_cast<float>(other)), 90.0f, {}});
             }
             mated += robot.replace(0.0).mated ? 1 : 0;
         }
@@ -245,17 +248,20 @@ TEST(Section32, TheTabuListHoldsDepletedAndDroppedGenomes) {
     settings.population = 2;
     Agent robot = make_robot(1, settings);
     EXPECT_EQ(robot.tabu_list().size(), 0u);
-    robot.receive({genome_of(0, 10.0f), 10.0f, {}});
-    robot.receive({genome_of(1, -10.0f), 20.0f, {}});  // genome 0 is dropped
+    robot.receive(RobotId{99}, {genome_of(0, 10.0f), 10.0f, {}});
+    robot.receive(RobotId{99}, {genome_of(1, -10.0f), 20.0f, {}});  // genome 0 is dropped
     EXPECT_EQ(robot.tabu_list().size(), 1u);
-    EXPECT_EQ(robot.receive({genome_of(0, 10.0f), 200.0f, {}}), Reception::tabu);
+    EXPECT_EQ(robot.receive(RobotId{99}, {genome_of(0, 10.0f), 200.0f, {}}), Reception::tabu);
 
     Agent other = make_robot(2, settings);
-    const Message of_the_depleted = other.message();
+    Message like_the_depleted = other.message();
+    Genome genome = other.active();
+    genome.id = {RobotId{99}, 7};
+    like_the_depleted.genome = std::make_shared<const Genome>(std::move(genome));
     deplete(other, settings);
     other.replace(0.0);
     EXPECT_EQ(other.tabu_list().size(), 1u);
-    EXPECT_EQ(other.receive(of_the_depleted), Reception::tabu);
+    EXPECT_EQ(other.receive(RobotId{99}, like_the_depleted), Reception::tabu);
 }
 
 // "This is used to filter out received genomes that are similar to one or more individuals in the
@@ -264,12 +270,12 @@ TEST(Section32, AGenomeSimilarToATabuOneIsNotAdded) {
     OdneatSettings settings = calm_settings();
     settings.population = 2;
     Agent robot = make_robot(1, settings);
-    robot.receive({genome_of(0, 10.0f), 10.0f, {}});
-    robot.receive({genome_of(1, -10.0f), 20.0f, {}});
+    robot.receive(RobotId{99}, {genome_of(0, 10.0f), 10.0f, {}});
+    robot.receive(RobotId{99}, {genome_of(1, -10.0f), 20.0f, {}});
     // The mean weight difference is 1, so the distance 0.4 is below the threshold.
-    EXPECT_EQ(robot.receive({genome_of(2, 9.0f), 200.0f, {}}), Reception::tabu);
+    EXPECT_EQ(robot.receive(RobotId{99}, {genome_of(2, 9.0f), 200.0f, {}}), Reception::tabu);
     EXPECT_FALSE(holds(robot, {RobotId{99}, 2}));
-    EXPECT_EQ(robot.receive({genome_of(3, 5.0f), 200.0f, {}}), Reception::accepted);
+    EXPECT_EQ(robot.receive(RobotId{99}, {genome_of(3, 5.0f), 200.0f, {}}), Reception::accepted);
 }
 
 }  // namespace

@@ -163,9 +163,10 @@ Simulation::Simulation(const Settings& settings, const Arena& arena, std::uint64
       join_cycles_(draw_join_cycles(settings_, seed)) {
     const std::size_t robots = world_.robots();
     agents_.reserve(robots);
+    const neat::SharedSettings odneat{settings_.odneat};
     for (std::size_t i = 0; i < robots; ++i) {
         const RobotId robot{static_cast<std::uint32_t>(i + 1)};
-        agents_.emplace_back(robot, settings_.odneat, initial_, make_source(robot, 0),
+        agents_.emplace_back(robot, odneat, initial_, make_source(robot, 0),
                              make_stream(seed, Stream::robots, i));
     }
     lives_.assign(robots, 0);
@@ -305,10 +306,9 @@ void Simulation::receive(std::uint32_t receiver, const neat::Message& message,
     if (!is_on(receiver)) return;
     ++result_.counters.messages_received;
     neat::Agent& agent = agents_[receiver];
-    const neat::Reception reception = agent.receive(message);
-    if (reception == neat::Reception::refused || reception == neat::Reception::identity_conflict) {
-        return;
-    }
+    // Everyone sends its own active genome here, and says the truth.
+    const neat::Reception reception = agent.receive(message.genome->id.robot, message);
+    if (is_refused(reception)) return;
     chronology_.admitted(receiver, number);
     if (reception == neat::Reception::accepted) {
         ++result_.counters.genomes_accepted;

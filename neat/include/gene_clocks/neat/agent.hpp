@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <gene_clocks/neat/controller.hpp>
 #include <gene_clocks/neat/genome.hpp>
@@ -9,6 +10,7 @@
 #include <gene_clocks/neat/random.hpp>
 #include <gene_clocks/neat/settings.hpp>
 #include <gene_clocks/neat/tabu_list.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,8 +21,8 @@ namespace gene_clocks::neat {
 /// innovation source adds; with gene clocks that is the counter c_r.
 ///
 /// Invariants: the genome is valid (see `find_fault`) and has the initial genes that all robots
-/// start from; the energy is finite. What comes off a wire gets them from `MessageCodec::decode`,
-/// which refuses everything else.
+/// start from. What comes off a wire gets them from `MessageCodec::decode`, which refuses
+/// everything else.
 struct Message {
     std::shared_ptr<const Genome> genome;  ///< never null
     float energy{};
@@ -37,6 +39,34 @@ enum class Reception : std::uint8_t {
     /// Refused as well: it shows that this robot's marks are no longer unique, or is forged; see
     /// Admission::identity_conflict.
     identity_conflict,
+    /// Refused: only the robot that made a genome has its energy, and so only it may report on it;
+    /// and none but the receiver makes the receiver's genomes.
+    not_its_maker,
+    impossible_energy,  ///< refused: no robot has it with the fleet's settings
+};
+
+/// Whether the message was dropped whole. Nothing has changed then.
+constexpr bool is_refused(Reception reception) {
+    return reception == Reception::refused || reception == Reception::identity_conflict ||
+           reception == Reception::not_its_maker || reception == Reception::impossible_energy;
+}
+
+/// How many places in its population a robot gives to genomes whose energy it only hears of, where
+/// others may lie. odNEAT itself trusts them: the default.
+///
+/// Where all such places are taken, a fitter genome may still take that of the least fit in them.
+struct PeerLimits {
+    static constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
+
+    std::size_t members_per_maker = any;  ///< to genomes of one other robot
+    std::size_t members_of_others = any;  ///< to those of all others together
+    /// Whether a genome of another robot may count as fitter than the fittest of one's own.
+    bool may_excel = true;
+
+    /// Whether every place is for anyone.
+    constexpr bool is_trusting() const {
+        return members_per_maker == any && members_of_others == any;
+    }
 };
 
 /// How an offspring came about.
@@ -54,11 +84,10 @@ struct Birth {
 /// message that arrives, `control()`, `spend()`, and `replace()` where `is_depleted()`.
 class Agent {
 public:
-    /// `settings` must outlive the agent; `topology` is the one all robots start from. Others may
-    /// hold genomes of the robot's earlier lives and know them by their GenomeId: births go on from
-    /// `source->first_birth()`.
-    Agent(RobotId robot, const OdneatSettings& settings, std::shared_ptr<const Topology> topology,
-          std::unique_ptr<InnovationSource> source, RandomStream random);
+    /// `topology` is the one all robots start from. Others may hold genomes of the robot's earlier
+    /// lives and know them by their GenomeId: births go on from `source->first_birth()`.
+    Agent(RobotId robot, SharedSettings settings, std::shared_ptr<const Topology> topology,
+          std::unique_ptr<InnovationSource> source, RandomStream random, PeerLimits peers = {});
 
     /// Probability of a broadcast in this cycle: the fitness share of the active genome's species.
     double broadcast_probability() {
@@ -82,8 +111,11 @@ public:
         return &message_;
     }
 
+    /// A message that `sender` has sent: as its signature says, where frames are signed. Where they
+    /// are not, anyone speaks as anyone, and a genome may come from others than its maker.
+    ///
     /// Precondition: the invariants of `Message`; they are not checked again here.
-    Reception receive(const Message& message);
+    Reception receive(RobotId sender, const Message& message);
 
     /// Runs the controller; see Controller::update.
     std::span<const float> control(std::span<const float> inputs) {
@@ -130,6 +162,8 @@ private:
     void activate(std::shared_ptr<const Genome> genome);
     void sample_fitness();
     void refresh_share();
+    std::optional<Population::MadeBy> rivals_of(RobotId maker) const;
+    float believed(float energy) const;
     Genome make_offspring(Birth& birth, double now_cycles);
 
     // What every cycle touches comes first.
@@ -148,7 +182,9 @@ private:
     std::int64_t energy_samples_ = 0;
     RobotId robot_;
     std::uint32_t births_;
-    const OdneatSettings& settings_;
+    float energy_possible_;  // the largest that a robot of these settings has
+    SharedSettings settings_;
+    PeerLimits peers_;
     std::unique_ptr<InnovationSource> source_;
     RandomStream random_;
     Population population_;

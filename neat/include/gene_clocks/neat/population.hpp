@@ -33,6 +33,19 @@ public:
     /// where there is no other.
     std::optional<std::size_t> worst(std::optional<GenomeId> except = std::nullopt) const;
 
+    /// The members that one robot has made, or those that it has not.
+    struct MadeBy {
+        RobotId robot;
+        bool is_maker;
+        bool operator()(const Member& member) const {
+            return (member.id.robot == robot) == is_maker;
+        }
+    };
+    /// Of those, the one of lowest raw fitness, the first of equals; nullopt where there is none.
+    std::optional<std::size_t> worst_of(MadeBy members) const;
+    /// Whether there are at least `count` of them.
+    bool has(MadeBy members, std::size_t count) const;
+
     /// Adds a genome and places it in the first species whose representative is nearer than the
     /// threshold, or in a new one. Precondition: not full.
     void add(std::shared_ptr<const Genome> genome, float fitness);
@@ -70,6 +83,8 @@ private:
         float fitness = 0.0f;
     };
 
+    template <class IsCandidate>
+    std::optional<std::size_t> worst_where(IsCandidate is_candidate) const;
     template <class IsCandidate>
     std::optional<std::size_t> hold_tournament(IsCandidate is_candidate,
                                                RandomStream& random) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 namespace gene_clocks::neat {
 
@@ -74,6 +75,20 @@ struct OdneatSettings {
     std::int64_t fitness_period_cycles = 10;  ///< fitness samples the energy this often
     std::int64_t structural_tries = 20;       ///< draws before a structural mutation gives up
     double disable_probability = 0.875;  ///< of a matching gene disabled in one parent (uniform)
+};
+
+/// Settings that any number of agents have in common and none can change. Copies share one object,
+/// which lives as long as any of them.
+class SharedSettings {
+public:
+    SharedSettings(const OdneatSettings& settings = {})  // NOLINT(google-explicit-constructor)
+        : settings_(std::make_shared<const OdneatSettings>(settings)) {}
+
+    const OdneatSettings& operator*() const { return *settings_; }
+    const OdneatSettings* operator->() const { return settings_.get(); }
+
+private:
+    std::shared_ptr<const OdneatSettings> settings_;
 };
 
 }  // namespace gene_clocks::neat
