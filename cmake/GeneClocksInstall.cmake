@@ -3,16 +3,24 @@
 # Every component is installed by itself: `cmake --install build/release --component protocol`.
 include(CMakePackageConfigHelpers)
 
+# All that `cmake --install` takes, and nothing else: no tests.
+add_custom_target(installable)
+
 set(gene_clocks_package_directory "${CMAKE_INSTALL_LIBDIR}/cmake/GeneClocks")
 
 foreach(component protocol storage authentication neat sim)
     if(TARGET gene_clocks_${component})
+        add_dependencies(installable gene_clocks_${component})
         install(TARGETS gene_clocks_${component} EXPORT GeneClocks-${component}
             COMPONENT ${component})
         install(EXPORT GeneClocks-${component} COMPONENT ${component}
             NAMESPACE GeneClocks:: DESTINATION "${gene_clocks_package_directory}")
     endif()
 endforeach()
+
+if(TARGET gene-clocks)
+    add_dependencies(installable gene-clocks)
+endif()
 
 configure_package_config_file(
     "${CMAKE_CURRENT_LIST_DIR}/GeneClocksConfig.cmake.in" GeneClocksConfig.cmake

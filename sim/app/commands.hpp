@@ -36,5 +36,10 @@ void add_contrast_command(CLI::App& app, int& status);
 void add_export_command(CLI::App& app, int& status);
 void add_merge_command(CLI::App& app, int& status);
 void add_check_trace_command(CLI::App& app, int& status);
+void add_schema_command(CLI::App& app, int& status);
+
+// These two print what the other commands are; so they are to be added after them.
+void add_completion_command(CLI::App& app, int& status);
+void add_manual_command(CLI::App& app, int& status);
 
 }  // namespace gene_clocks::app

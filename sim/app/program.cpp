@@ -65,6 +65,9 @@ int run_program(int argc, char** argv, const Conductor& conductor) {
     add_export_command(application, status);
     add_merge_command(application, status);
     add_check_trace_command(application, status);
+    add_schema_command(application, status);
+    add_completion_command(application, status);
+    add_manual_command(application, status);
 
     try {
         application.parse(argc, argv);

@@ -8,9 +8,6 @@
 namespace gene_clocks::experiment {
 namespace {
 
-constexpr Range size_px{1.0, 1e5};
-constexpr std::size_t walls_maximum = 10'000;
-
 sim::ThickSegment read_wall(const Document& document, const toml::node& row,
                             const sim::Arena& arena, std::size_t index) {
     const Place place = document.place_of(row);
@@ -55,16 +52,16 @@ sim::Arena read_arena(const Document& document) {
     sim::Arena arena;
     arena.name = reader.required_text("name");
     reader.text("description");
-    arena.width_px = reader.required_real("width_px", size_px);
-    arena.height_px = reader.required_real("height_px", size_px);
+    arena.width_px = reader.required_real("width_px", arena_size_px);
+    arena.height_px = reader.required_real("height_px", arena_size_px);
     const toml::table* frame = reader.table("frame");
     if (frame == nullptr) throw reader.error("frame", "is missing");
     read_frame(document, *frame, arena);
 
     const toml::array& walls = reader.array("walls");
-    if (walls.size() > walls_maximum) {
-        throw reader.error("walls",
-                           fmt::format("{} walls are more than {}", walls.size(), walls_maximum));
+    if (walls.size() > arena_walls_maximum) {
+        throw reader.error(
+            "walls", fmt::format("{} walls are more than {}", walls.size(), arena_walls_maximum));
     }
     for (const toml::node& row : walls) {
         arena.walls.push_back(read_wall(document, row, arena, arena.walls.size()));

@@ -15,9 +15,8 @@ namespace gene_clocks::experiment {
 namespace {
 
 constexpr std::uintmax_t file_bytes_maximum = 4U << 20U;
-/// A key with as many parts, a.b.c.…, makes tables as deep, which are taken down by recursion. A
-/// line that has no such key has a dot in each real number, of which a list may have 10 000.
-constexpr std::ptrdiff_t line_dots_maximum = 10'000;
+/// A key with as many parts, a.b.c.…, makes tables as deep, which are taken down by recursion.
+constexpr std::ptrdiff_t key_dots_maximum = 10'000;
 
 std::string read_file(const std::filesystem::path& file) {
     std::error_code error;
@@ -75,14 +74,34 @@ InputError type_error(const toml::node& node, const Place& place, const std::str
     return key_error(place, key, fmt::format("expected {}, found {}", expected, type_name(node)));
 }
 
+/// Dots join the parts of a key; those of numbers and texts join nothing.
+std::ptrdiff_t most_dots_in_a_key(std::string_view line) {
+    std::ptrdiff_t dots = 0, most = 0;
+    char quote = '\0';
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const char character = line[i];
+        if (quote != '\0') {
+            if (character == '\\' && quote == '"') ++i;
+            if (character == quote) quote = '\0';
+        } else if (character == '"' || character == '\'') {
+            quote = character;
+        } else if (character == '.') {
+            most = std::max(most, ++dots);
+        } else if (std::string_view("=,[]{}#").find(character) != std::string_view::npos) {
+            dots = 0;
+        }
+    }
+    return most;
+}
+
 void refuse_deep_keys(const Document& document) {
     std::istringstream stream(document.text);
     std::uint32_t number = 0;
     for (std::string line; std::getline(stream, line);) {
         ++number;
-        if (std::ranges::count(line, '.') > line_dots_maximum) {
-            throw InputError(Place{document.name, number}.prefix() + "a line with more than " +
-                             std::to_string(line_dots_maximum) + " dots");
+        if (most_dots_in_a_key(line) > key_dots_maximum) {
+            throw InputError(Place{document.name, number}.prefix() + "a key with more than " +
+                             std::to_string(key_dots_maximum) + " dots");
         }
     }
 }
