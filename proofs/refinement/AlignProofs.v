@@ -8,7 +8,7 @@ Open Scope list_scope.
 Theorem gene_clocks_visit_refines : Statements.gene_clocks_visit_refines.
 Proof.
   intros outside m visit which context match_ first second here known told. subst told.
-  exists 0%nat. intros fuel _. enter. repeat step. returned.
+  intros fuel _. enter. repeat step. returned.
 Qed.
 
 Section Alignment.
@@ -175,7 +175,7 @@ Proof.
   assert (all : [] ++ map (told context) (ahead first second 0 0) = calls) by reflexivity.
   assert (memory_is : m = visited outside which [] m) by reflexivity.
   clear here1 here2 here3. clearbody calls. unfold size_value. open_numbers.
-  exists (S (length first + length second)). intros fuel enough. enter. repeat step.
+  intros fuel enough. enter. repeat step.
   let slots := eval compute in (loop_slots gene_clocks_align) in
   lazymatch slots with
   | [?a; ?b] => first [aligning_in alone first second a b | aligning_in alone first second b a]

@@ -228,7 +228,7 @@ Ltac at_loop I n :=
 (** All of a function without loops. *)
 Ltac run_to_the_end :=
   let outside := fresh "outside" in let fuel := fresh "fuel" in
-  intros outside; exists 0%nat; intros fuel _; enter; repeat step; returned.
+  intros outside fuel _; enter; repeat step; returned.
 
 (** Where the model's answer decides what is claimed, the function still runs only once. *)
 Lemma answered {A} (answer : option A) f arguments m result m' result' m'' :

@@ -39,7 +39,7 @@ Theorem gene_clocks_covers_refines : Statements.gene_clocks_covers_refines.
 Proof.
   intros m at_ genome stamp [fit here]. unfold size_value. open_numbers.
   remember (covers stamp genome) as answer eqn:asked. symmetry in asked.
-  intros outside. exists (S (length genome)). intros fuel enough. enter. repeat step.
+  intros outside fuel enough. enter. repeat step.
   in_its_slot gene_clocks_covers
     ltac:(counting genome (fun (_ : nat) rest => covers stamp rest) answer asked).
 Qed.
@@ -48,7 +48,7 @@ Theorem gene_clocks_find_unmade_refines : Statements.gene_clocks_find_unmade_ref
 Proof.
   intros m at_ genome next robot [fit here]. unfold size_value. open_numbers.
   remember (find_unmade next robot genome) as answer eqn:asked. symmetry in asked.
-  intros outside. exists (S (length genome)). intros fuel enough. enter. repeat step.
+  intros outside fuel enough. enter. repeat step.
   in_its_slot gene_clocks_find_unmade
     ltac:(counting genome (fun k rest => (k + find_unmade next robot rest)%nat) answer asked).
 Qed.

@@ -335,12 +335,12 @@ Fixpoint run (p : program) (outside : N -> list value -> memory -> memory) (fuel
 
 (** ** What is said of a function
 
-    It ends, with any bound on the rounds of a loop that is large enough, having returned [result],
-    left memory as in [m'], and called the caller's functions as [calls] says; and nothing that it
-    did was undefined. *)
-Definition returns (p : program) (outside : N -> list value -> memory -> memory) (name : string)
-    (arguments : list value) (m : memory) (result : value) (m' : memory)
+    It ends, after at most [rounds] rounds of each loop, having returned [result], left memory as
+    in [m'], and called the caller's functions as [calls] says; and nothing that it did was
+    undefined. *)
+Definition returns (p : program) (outside : N -> list value -> memory -> memory) (rounds : nat)
+    (name : string) (arguments : list value) (m : memory) (result : value) (m' : memory)
     (calls : list (N * list value)) : Prop :=
-  exists enough, forall fuel, (enough <= fuel)%nat -> exists m'',
+  forall fuel, (rounds < fuel)%nat -> exists m'',
     run p outside fuel name arguments (State m []) = Some (result, State m'' calls)
     /\ forall a, m'' a = m' a.

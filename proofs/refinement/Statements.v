@@ -43,9 +43,10 @@ Definition genome_at (m : memory) (at_ : address) (genome : list mark) : Prop :=
 Definition size_value (genome : list mark) : value := Int (Z.of_nat (length genome)).
 
 (** The function calls nobody back, and whatever a callback would do does not matter. *)
-Definition computes (function : string) (arguments : list value) (m : memory) (result : value)
-    (m' : memory) : Prop :=
-  forall outside, returns kernel outside function arguments m result m' [].
+Definition computes_in (rounds : nat) (function : string) (arguments : list value) (m : memory)
+    (result : value) (m' : memory) : Prop :=
+  forall outside, returns kernel outside rounds function arguments m result m' [].
+Definition computes : string -> list value -> memory -> value -> memory -> Prop := computes_in 0.
 
 (** True and the clock written, or false and nothing changed. *)
 Definition takes_up (function : string) (arguments : list value) (m : memory) (state : address)
@@ -120,7 +121,7 @@ Definition covers (stamp : N) (genome : list mark) : bool :=
 
 Definition gene_clocks_covers_refines : Prop :=
   forall m at_ genome stamp, genome_at m at_ genome ->
-    computes "gene_clocks_covers" [number_value stamp; Pointer at_; size_value genome]
+    computes_in (length genome) "gene_clocks_covers" [number_value stamp; Pointer at_; size_value genome]
       m (bool_value (covers stamp genome)) m.
 
 (** How many genes come before the first that bears [robot]'s id and that it has not made. *)
@@ -133,7 +134,7 @@ Fixpoint find_unmade (next robot : N) (genome : list mark) : nat :=
 
 Definition gene_clocks_find_unmade_refines : Prop :=
   forall m at_ genome next robot, genome_at m at_ genome ->
-    computes "gene_clocks_find_unmade"
+    computes_in (length genome) "gene_clocks_find_unmade"
       [number_value next; number_value robot; Pointer at_; size_value genome]
       m (Int (Z.of_nat (find_unmade next robot genome))) m.
 
@@ -178,7 +179,7 @@ Definition gene_clocks_visit_refines : Prop :=
   forall outside m visit which context match_ first second,
     m visit = Some (visitor_value which context) -> context <> Undefined ->
     let told := [context; Int match_; Int first; Int second] in
-    returns kernel outside "gene_clocks_visit"
+    returns kernel outside 0 "gene_clocks_visit"
       [Pointer visit; Int match_; Int first; Int second]
       m Undefined (outside which told m) [(which, told)].
 
@@ -214,7 +215,7 @@ Definition gene_clocks_align_refines : Prop :=
        within first_at first a \/ within second_at second a \/ a = visit ->
        outside which arguments m a = m a) ->
     let calls := map (told context) (visits (align (fun gene => gene) first second) 0 0) in
-    returns kernel outside "gene_clocks_align"
+    returns kernel outside (length first + length second) "gene_clocks_align"
       [Pointer first_at; size_value first; Pointer second_at; size_value second; Pointer visit]
       m Undefined (fold_left (fun m arguments => outside which arguments m) calls m)
       (map (fun arguments => (which, arguments)) calls).
