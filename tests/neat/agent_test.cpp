@@ -758,6 +758,41 @@ TEST_F(AgentTest, MarksTheGenesOfAMutationWithItsOwnClock) {
     EXPECT_EQ(agent.message().stamp, Stamp{503});
 }
 
+/// A source that notes when it was asked.
+class TimedSource final : public InnovationSource {
+public:
+    explicit TimedSource(std::vector<double>& times) : times_(times) {}
+    std::optional<SplitMarks> mark_split(const Genome&, std::size_t, double now_cycles) override {
+        times_.push_back(now_cycles);
+        return std::nullopt;
+    }
+    std::optional<InnovationNumber> mark_connection(const Genome&, const ConnectionEnds&,
+                                                    double now_cycles) override {
+        times_.push_back(now_cycles);
+        return std::nullopt;
+    }
+    Stamp stamp() const override { return Stamp{}; }
+    bool observe(Stamp) override { return true; }
+
+private:
+    std::vector<double>& times_;
+};
+
+TEST_F(AgentTest, MarksTheGenesOfAMutationAtTheTimeOfTheBirth) {
+    settings_.p_mutate = settings_.p_node = 1.0;
+    std::vector<double> times;
+    const auto replace_at = [&](double now_cycles) {
+        Agent agent(RobotId{1}, settings_, topology_, std::make_unique<TimedSource>(times),
+                    RandomStream(1, 1));
+        agent.replace(now_cycles);
+    };
+    replace_at(17.0);
+    settings_.p_node = 0.0;
+    settings_.p_connection = settings_.p_recurrent = 1.0;  // an output's loop, say
+    replace_at(23.5);
+    EXPECT_EQ(times, (std::vector{17.0, 23.5}));
+}
+
 TEST_F(AgentTest, AnExhaustedClockMeansNoStructuralMutation) {
     settings_.p_mutate = 1.0;
     settings_.p_node = 1.0;

@@ -105,6 +105,16 @@ TEST_F(TabuListTest, ListsAGenomeOnceAndRenewsItWhenAddedAgain) {
     EXPECT_EQ(tabu_.size(), 0u);
 }
 
+TEST_F(TabuListTest, ListsGenomesOfTwoRobotsApart) {
+    Genome elsewhere = *other_;
+    elsewhere.id = {RobotId{2}, near_->id.birth};  // the same number, of another robot
+    tabu_.add(near_);
+    tabu_.add(std::make_shared<const Genome>(elsewhere));
+    EXPECT_EQ(tabu_.size(), 2u);
+    EXPECT_FALSE(tabu_.approves(*other_));
+    EXPECT_FALSE(tabu_.approves(*near_));
+}
+
 TEST_F(TabuListTest, AThresholdOfZeroMakesNothingSimilar) {
     settings_.tabu_threshold = 0.0;
     TabuList tabu(settings_);

@@ -39,7 +39,7 @@ protected:
         // Controllers without state, whose outputs depend on every input; short lives.
         settings_.odneat.p_mutate = 0.0;
         settings_.odneat.weight_limit = 0.5;
-        settings_.odneat.maturation_cycles = 15;
+        settings_.odneat.maturation_cycles = 30;  // longer than the energy lasts
         settings_.odneat.energy_initial = 20.0;
         settings_.odneat.energy_maximum = 40.0;
         settings_.odneat.fitness_period_cycles = 7;

@@ -147,6 +147,23 @@ TEST_F(RunResults, WhoIsNotThereYetDoesNotReboot) {
     EXPECT_EQ(watched::Run(settings_, arena_).result.counters.reboots, 6u * 100u);
 }
 
+TEST_F(RunResults, GenomesStayValidWhereClocksForgetWhatTheyMarked) {
+    // Own genes come back by way of others after a reboot, and the clock would mark them again.
+    settings_.source = Source::gene_clock_no_merge;
+    settings_.odneat.p_mutate = 0.9;
+    settings_.reboot = {.probability = 0.003, .clock = RebootClock::lost};
+    settings_.run.cycles = 4000;
+    const watched::Run run(settings_, arena_);
+    EXPECT_GT(run.result.counters.reboots, 50u);
+    EXPECT_GT(run.result.counters.genes_created, 100u);
+    for (const watched::Moment& moment : run.moments) {
+        for (const watched::Robot& robot : moment.robots) {
+            ASSERT_EQ(neat::find_fault(*robot.genome, settings_.odneat.weight_limit), std::nullopt)
+                << moment.cycle;
+        }
+    }
+}
+
 TEST_F(RunResults, IdentifiersAreDrawnAnewInEveryLife) {
     settings_.source = Source::random_identifier;
     settings_.odneat.p_mutate = settings_.odneat.p_node = 1.0;
