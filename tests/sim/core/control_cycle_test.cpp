@@ -32,7 +32,7 @@ protected:
         if (settings_.world.actuation == Actuation::wheels) {
             settings_.energy.navigation = NavigationEnergy::equation_2;
         }
-        settings_.world.robots = 14;
+        settings_.world.robots = 24;
         settings_.world.items = 5;
         settings_.run.cycles = 400;
         settings_.run.sample_period_cycles = 50;

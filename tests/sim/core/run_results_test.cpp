@@ -290,6 +290,21 @@ TEST_F(RunResults, CollisionsAreTheMovesThatEndWhereTheyBegan) {
     EXPECT_GE(run.result.counters.collisions, stays - stays / 500);
 }
 
+TEST_F(RunResults, StampsAreThoseThatRobotsWouldSendAtTheEnd) {
+    const watched::Run run(settings_, arena_);
+    std::uint64_t smallest = ~std::uint64_t{0}, largest = 0;
+    double sum = 0.0;
+    for (const watched::Robot& robot : run.moments.back().robots) {
+        smallest = std::min(smallest, robot.stamp.value);
+        largest = std::max(largest, robot.stamp.value);
+        sum += static_cast<double>(robot.stamp.value);
+    }
+    EXPECT_GT(largest, smallest);
+    EXPECT_EQ(run.result.chronology.stamp_smallest, smallest);
+    EXPECT_EQ(run.result.chronology.stamp_largest, largest);
+    EXPECT_NEAR(run.result.chronology.stamp_mean, sum / 12.0, 1e-6);
+}
+
 TEST_F(RunResults, CreationsAreTheMarkingsWithTheirRobotsAndCycles) {
     settings_.run.record_creation_times = true;
     const watched::Run run(settings_, arena_);

@@ -21,6 +21,7 @@ struct Robot {
     std::shared_ptr<const neat::Genome> genome;  // the active one
     std::vector<neat::Population::Member> members;
     std::size_t tabu;  // entries
+    Stamp stamp;       // that it would send
 
     bool holds(neat::GenomeId id) const { return member(id) != nullptr; }
     const neat::Population::Member* member(neat::GenomeId id) const {
@@ -85,7 +86,8 @@ private:
             const auto active = agent.population().find(agent.active().id).value();
             moment.robots.push_back({view.x_px[i], view.y_px[i], view.heading_x[i],
                                      view.heading_y[i], agent.energy(), agent.fitness(),
-                                     members[active].genome, members, agent.tabu_list().size()});
+                                     members[active].genome, members, agent.tabu_list().size(),
+                                     agent.source().stamp()});
         }
         for (std::size_t i = 0; i < view.item_x_px.size(); ++i) {
             moment.items.push_back(
