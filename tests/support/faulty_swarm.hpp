@@ -124,9 +124,10 @@ public:
     }
 
     void restart(std::size_t r) {
-        robots_[r].clock = slip_ == Slip::fresh_restart
-                               ? GeneClock{id(r), genesis_count_, limits_}
-                               : GeneClock::restart(id(r), robots_[r].stored, genesis_count_, limits_);
+        robots_[r].clock =
+            slip_ == Slip::fresh_restart
+                ? GeneClock{id(r), genesis_count_, limits_}
+                : GeneClock::restart(id(r), robots_[r].stored, genesis_count_, limits_);
         RC_ASSERT(is_up(r));
     }
 
