@@ -1,5 +1,5 @@
-// Every interleaving of mint, send, deliver, lose, duplicate, flush, crash and restart, in small
-// swarms of the shipped clock with 8-bit counters.
+// Every interleaving of mint, send, deliver, lose, duplicate, store, crash and restart, in small
+// swarms of the shipped clock and gate with 8-bit counters.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -90,6 +90,16 @@ TEST(Refutes, AMissingWindow) {
                              {"robot 1 receives a forged stamp 3 with {}"});
 }
 
+TEST(Refutes, AGateThatSpendsNothing) {
+    expect_refuted<SpendsNothing>(
+        {.robots = 1,
+         .maximum = 5,
+         .gate = Gate::Policy{.allowance = 1},
+         .budget = Scope::Budget{.forged = 2}},
+        "receptions move a clock further than has been earned",
+        {"robot 1 receives a forged stamp 2 with {}", "robot 1 receives a forged stamp 3 with {}"});
+}
+
 TEST(Refutes, KeepingGenesThatTheStoredCounterDoesNotCover) {
     expect_refuted<KeepsAllGenes>(
         two_robots, "two genes have the same mark",
@@ -99,6 +109,8 @@ TEST(Refutes, KeepingGenesThatTheStoredCounterDoesNotCover) {
 
 TEST(Swarm, RefusesAScopeThatDoesNotFit) {
     EXPECT_THROW(explore<GeneClocks>({.robots = 4, .maximum = 20}), std::invalid_argument);
+    EXPECT_THROW(explore<GeneClocks>({.window = 100, .budget = Scope::Budget{.forged = 1}}),
+                 std::invalid_argument);
 }
 
 // The states of the smallest world, counted by hand: one robot, one counter, nothing in flight.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <gene_clocks/admission_gate.hpp>
 #include <gene_clocks/gene_clock.hpp>
 #include <limits>
 #include <optional>
@@ -13,6 +14,7 @@ namespace gene_clocks::model {
 
 using Counter = std::uint8_t;
 using Clock = BasicGeneClock<Counter>;
+using Gate = BasicAdmissionGate<Counter>;
 using Mark = BasicInnovationNumber<Counter>;
 using Stamp = BasicStamp<Counter>;
 using Genes = std::span<const Mark>;
@@ -28,6 +30,12 @@ struct GeneClocks {
     /// A receiver takes the maximum, or drops the message whole.
     static bool merge(Clock& clock, Stamp stamp, Genes genes) {
         return clock.observe(stamp, genes);
+    }
+    /// Without its genes a message is no more than its stamp.
+    static bool merge_stamp(Clock& clock, Stamp stamp) { return clock.observe(stamp); }
+    /// Behind a gate a receiver also asks what has been earned, and whose the genes are.
+    static bool pass(Gate& gate, Clock& clock, Stamp stamp, Genes genes) {
+        return gate.admit(clock, stamp, genes) == Admission::admitted;
     }
     /// Nothing leaves a robot before what it needs is on stable storage.
     static bool may_send(const Clock& clock, Counter stored) {
@@ -81,6 +89,14 @@ struct RobotFirst : GeneClocks {
 struct NoWindow : GeneClocks {
     static constexpr const char* name = "there is no admission window";
     static Counter window(Counter) { return std::numeric_limits<Counter>::max(); }
+};
+
+struct SpendsNothing : GeneClocks {
+    static constexpr const char* name = "receptions are not paid for out of the allowance";
+    static bool pass(Gate& gate, Clock& clock, Stamp stamp, Genes genes) {
+        Gate copy = gate;
+        return copy.admit(clock, stamp, genes) == Admission::admitted;
+    }
 };
 
 struct KeepsAllGenes : GeneClocks {

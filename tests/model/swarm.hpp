@@ -10,75 +10,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "tests/model/rules.hpp"
+#include "tests/model/world.hpp"
 
 namespace gene_clocks::model {
-
-inline constexpr int most_robots = 4;
-inline constexpr int most_messages = 4;
-
-/// How much of the world is explored. Everything else is unbounded: a run may have any length.
-struct Scope {
-    int robots = 2;
-    Counter maximum = 4;       ///< counters run from 1 to maximum
-    Counter block = 0;         ///< counters that a flush reserves ahead
-    Counter window = 255;      ///< largest admitted leap
-    int messages = 2;          ///< in the air at the same time
-    Counter largest_mint = 1;  ///< genes that one mutation adds, all or none
-    /// With it, what happened is counted, and counters are held against the budget
-    /// 1 + minted + block · crashes + window · forged. Then runs are bounded by these three.
-    struct Budget {
-        int minted = 0;
-        int crashes = 0;
-        int forged = 0;
-    };
-    std::optional<Budget> budget = std::nullopt;
-    /// Also checks what the proof of the outcomes rests on, in every state.
-    bool check_invariants = true;
-};
-
-/// Marks as bits: `robot · counters + counter - 1`.
-using MarkSet = std::uint32_t;
-
-struct RobotState {
-    bool is_up = true;
-    Counter next = 1;     ///< of its clock; 0 while it is down
-    Counter durable = 1;  ///< of its clock; 0 while it is down
-    Counter stored = 1;   ///< on stable storage
-    MarkSet known = 0;    ///< every gene that it made or received, and did not lose in a crash
-};
-
-struct Message {
-    Counter stamp = 0;
-    MarkSet genes = 0;
-    friend auto operator<=>(Message, Message) = default;
-};
-
-/// Invariant: messages[0 … message_count) are sorted, the others default, so equal worlds are equal
-/// values.
-struct World {
-    std::array<RobotState, most_robots> robots;
-    std::array<Message, most_messages> messages;
-    int message_count = 0;
-    int minted = 0;
-    int crashes = 0;
-    int forged = 0;
-};
-
-/// A forged message has no genes, or those of a message in flight.
-inline constexpr int no_message = -1;
-
-/// What can happen next.
-struct Action {
-    enum class Kind { mint, send, deliver, lose, duplicate, flush, crash, restart, forge };
-    Kind kind;
-    int robot = 0;      ///< where it happens; of no meaning for lose and duplicate
-    int message = 0;    ///< in flight, for deliver, lose, duplicate; for forge whose genes it has
-    Counter value = 0;  ///< number of genes to mint, or stamp to forge
-};
-
-/// A world in 128 bits.
-using Packed = unsigned __int128;
 
 /// The robots, the network and the rules: which worlds follow from a world, and which of them break
 /// a promise.
@@ -87,16 +21,19 @@ class Swarm {
 public:
     explicit Swarm(const Scope& scope)
         : scope_{scope},
-          limits_{scope.maximum, scope.block, Rules::window(scope.window)},
           counters_{scope.maximum - 1},
           counter_bits_{static_cast<int>(std::bit_width(scope.maximum))},
           mark_bits_{scope.robots * counters_} {
-        const int bits = scope.robots * (1 + 3 * counter_bits_ + mark_bits_) +
+        const int bits = scope.robots * (1 + 3 * counter_bits_ + mark_bits_ +
+                                         (scope.gate ? 2 * (counter_bits_ + 2) : 0)) +
                          scope.messages * (counter_bits_ + mark_bits_) + 3 +
-                         (scope.budget ? 3 * budget_bits : 0);
+                         (scope.budget ? 4 * budget_bits + spent_bits : 0);
         if (scope.robots > most_robots || scope.messages > most_messages || mark_bits_ > 32 ||
             bits > 128) {
             throw std::invalid_argument("the scope does not fit into 128 bits");
+        }
+        if (scope.budget && !fits(*scope.budget)) {
+            throw std::invalid_argument("the scope's budget does not fit into its bits");
         }
     }
 
@@ -105,8 +42,9 @@ public:
     [[nodiscard]] World initial() const {
         World world;
         for (int r = 0; r < scope_.robots; ++r) {
-            const auto [next, durable] = Clock{robot_id(r), 0, limits_}.state();
+            const auto [next, durable] = Clock{robot_id(r), 0, limits_of(r)}.state();
             world.robots[index(r)] = {true, next, durable, durable, 0};
+            open_gate(world.robots[index(r)]);
         }
         return world;
     }
@@ -130,7 +68,21 @@ public:
                 visit(Action{send, r});
             }
             for (int m = 0; m < world.message_count; ++m) visit(Action{deliver, r, m});
-            if (robot.stored != robot.durable) visit(Action{flush, r});
+            for (int m = 0; scope_.overhears && m < world.message_count; ++m) {
+                visit(Action{overhear, r, m});
+            }
+            // Any write that was begun may be the one that completes.
+            const int most = std::min<int>(scope_.maximum, robot.durable + scope_.stored_beyond);
+            for (int value = robot.stored + 1; value <= most; ++value) {
+                const auto counter = static_cast<Counter>(value);
+                if (!budget || world.stored + beyond_need(robot, counter) <= budget->stored) {
+                    visit(Action{flush, r, 0, counter});
+                }
+            }
+            // Once every stamp is paid for, more time changes nothing.
+            if (scope_.gate && robot.next + robot.allowance < scope_.maximum) {
+                visit(Action{elapse, r});
+            }
             if (!budget || world.crashes < budget->crashes) visit(Action{crash, r});
             if (budget && world.forged < budget->forged) {
                 for (Counter stamp = 1; stamp <= scope_.maximum; ++stamp) {
@@ -158,7 +110,13 @@ public:
             case Action::Kind::deliver: {
                 const Message message = world.messages[index(action.message)];
                 remove(world, action.message);
-                receive(world, action.robot, message);
+                if (const char* broken = receive(world, action.robot, message)) return broken;
+                break;
+            }
+            case Action::Kind::overhear: {
+                const Stamp stamp{world.messages[index(action.message)].stamp};
+                remove(world, action.message);
+                if (const char* broken = receive_stamp(world, action.robot, stamp)) return broken;
                 break;
             }
             case Action::Kind::lose:
@@ -168,23 +126,44 @@ public:
                 add(world, world.messages[index(action.message)]);
                 break;
             case Action::Kind::flush:
-                robot.stored = robot.durable;
+                if (scope_.budget) {
+                    const int beyond = beyond_need(robot, action.value);
+                    world.stored += beyond;
+                    world.spent += beyond;
+                }
+                robot.stored = action.value;
                 break;
+            case Action::Kind::elapse: {
+                Gate gate = gate_of(robot);
+                gate.elapse();
+                robot.allowance = gate.allowance();
+                robot.line = static_cast<Counter>(robot.line + scope_.gate->per_cycle);
+                break;
+            }
             case Action::Kind::crash:
-                if (scope_.budget) ++world.crashes;
+                if (scope_.budget) {
+                    ++world.crashes;
+                    world.spent += scope_.blocks[index(action.robot)];
+                }
                 robot = {false, 0, 0, robot.stored, retained(robot)};
                 break;
             case Action::Kind::restart: {
-                const auto clock = Rules::resume(robot_id(action.robot), robot.stored, limits_);
+                const auto clock =
+                    Rules::resume(robot_id(action.robot), robot.stored, limits_of(action.robot));
                 if (!clock) return "a clock does not come back from what it stored";
                 robot.is_up = true;
                 put(robot, *clock);
+                open_gate(robot);
                 break;
             }
-            case Action::Kind::forge:
+            case Action::Kind::forge: {
                 ++world.forged;
-                receive(world, action.robot, {action.value, forged_genes(world, action)});
+                world.spent +=
+                    scope_.gate ? std::min(scope_.window, robot.allowance) : scope_.window;
+                const Message forged{action.value, forged_genes(world, action)};
+                if (const char* broken = receive(world, action.robot, forged)) return broken;
                 break;
+            }
         }
         return broken_promise(world);
     }
@@ -203,6 +182,10 @@ public:
             put(robot.durable, counter_bits_);
             put(robot.stored, counter_bits_);
             put(robot.known, mark_bits_);
+            if (scope_.gate) {
+                put(robot.allowance, counter_bits_ + 2);
+                put(robot.line, counter_bits_ + 2);
+            }
         }
         put(static_cast<std::uint32_t>(world.message_count), 3);
         for (int m = 0; m < scope_.messages; ++m) {
@@ -210,9 +193,10 @@ public:
             put(world.messages[index(m)].genes, mark_bits_);
         }
         if (scope_.budget) {
-            for (const int spent : {world.minted, world.crashes, world.forged}) {
-                put(static_cast<std::uint32_t>(spent), budget_bits);
+            for (const int count : {world.minted, world.crashes, world.forged, world.stored}) {
+                put(static_cast<std::uint32_t>(count), budget_bits);
             }
+            put(static_cast<std::uint32_t>(world.spent), spent_bits);
         }
         return bits;
     }
@@ -232,6 +216,10 @@ public:
             robot.durable = take_counter();
             robot.stored = take_counter();
             robot.known = take(mark_bits_);
+            if (scope_.gate) {
+                robot.allowance = static_cast<Counter>(take(counter_bits_ + 2));
+                robot.line = static_cast<Counter>(take(counter_bits_ + 2));
+            }
         }
         world.message_count = static_cast<int>(take(3));
         for (int m = 0; m < scope_.messages; ++m) {
@@ -239,9 +227,10 @@ public:
             world.messages[index(m)].genes = take(mark_bits_);
         }
         if (scope_.budget) {
-            for (int* const spent : {&world.minted, &world.crashes, &world.forged}) {
-                *spent = static_cast<int>(take(budget_bits));
+            for (int* const count : {&world.minted, &world.crashes, &world.forged, &world.stored}) {
+                *count = static_cast<int>(take(budget_bits));
             }
+            world.spent = static_cast<int>(take(spent_bits));
         }
         return world;
     }
@@ -275,6 +264,10 @@ public:
                 out << " receives ";
                 message(world.messages[index(action.message)]);
                 break;
+            case Action::Kind::overhear:
+                robot();
+                out << " hears stamp " << int{world.messages[index(action.message)].stamp};
+                break;
             case Action::Kind::lose:
                 out << "lost: ";
                 message(world.messages[index(action.message)]);
@@ -285,7 +278,11 @@ public:
                 break;
             case Action::Kind::flush:
                 robot();
-                out << " stores counter " << int{world.robots[index(action.robot)].durable};
+                out << " stores counter " << int{action.value};
+                break;
+            case Action::Kind::elapse:
+                out << "a cycle goes by for ";
+                robot();
                 break;
             case Action::Kind::crash:
                 robot();
@@ -306,6 +303,7 @@ public:
 
 private:
     static constexpr int budget_bits = 4;
+    static constexpr int spent_bits = 6;
 
     static std::size_t index(int i) { return static_cast<std::size_t>(i); }
     static RobotId robot_id(int r) { return RobotId{static_cast<std::uint32_t>(r + 1)}; }
@@ -331,10 +329,40 @@ private:
         out << '}';
     }
 
+    [[nodiscard]] Clock::Limits limits_of(int robot) const {
+        return {scope_.maximum, scope_.blocks[index(robot)], Rules::window(scope_.window)};
+    }
+
+    [[nodiscard]] bool fits(const Scope::Budget& budget) const {
+        const int reach = scope_.gate ? 2 * scope_.maximum : scope_.window;
+        const int most = budget.minted + budget.crashes * std::ranges::max(scope_.blocks) +
+                         budget.forged * reach + budget.stored;
+        const int counts[] = {budget.minted, budget.crashes, budget.forged, budget.stored};
+        return std::ranges::max(counts) < 1 << budget_bits && most < 1 << spent_bits;
+    }
+
+    /// How far a stored counter lies beyond all that is needed or stored.
+    static int beyond_need(const RobotState& robot, Counter counter) {
+        return std::max(0, counter - std::max(robot.durable, robot.stored));
+    }
+
+    void open_gate(RobotState& robot) const {
+        if (!scope_.gate) return;
+        robot.allowance = scope_.gate->allowance;
+        robot.line = static_cast<Counter>(robot.next + robot.allowance);
+    }
+    /// The shipped gate, as `robot` has it.
+    [[nodiscard]] Gate gate_of(const RobotState& robot) const {
+        Gate::Policy policy = *scope_.gate;
+        policy.allowance = robot.allowance;
+        return Gate{policy};
+    }
+
     /// The shipped clock, as `robot` has it.
     [[nodiscard]] Clock clock_of(const World& world, int robot) const {
         const RobotState& state = world.robots[index(robot)];
-        return Clock::from_state(robot_id(robot), {state.next, state.durable}, limits_).value();
+        return Clock::from_state(robot_id(robot), {state.next, state.durable}, limits_of(robot))
+            .value();
     }
     static void put(RobotState& robot, const Clock& clock) {
         robot.next = clock.state().next;
@@ -365,18 +393,39 @@ private:
         }
         if (broken) return broken;
         put(robot, clock);
-        if (scope_.budget) world.minted += action.value;
+        if (scope_.budget) {
+            world.minted += action.value;
+            world.spent += action.value;
+        }
+        if (scope_.gate) robot.line = static_cast<Counter>(robot.line + action.value);
         return broken_promise(world);
     }
 
-    void receive(World& world, int r, Message message) const {
+    const char* receive(World& world, int r, Message message) const {
         std::array<Mark, 32> genes;
         std::size_t size = 0;
         for_each_mark(message.genes, [&](Mark mark) { genes[size++] = mark; });
+        RobotState& robot = world.robots[index(r)];
         Clock clock = clock_of(world, r);
-        if (!Rules::merge(clock, {message.stamp}, {genes.data(), size})) return;
-        put(world.robots[index(r)], clock);
-        world.robots[index(r)].known |= message.genes;
+        if (scope_.gate) {
+            Gate gate = gate_of(robot);
+            const bool passed = Rules::pass(gate, clock, {message.stamp}, {genes.data(), size});
+            if (gate.conflicting_mark()) return "a gene is taken for another robot's";
+            if (!passed) return nullptr;
+            robot.allowance = gate.allowance();
+        } else if (!Rules::merge(clock, {message.stamp}, {genes.data(), size})) {
+            return nullptr;
+        }
+        put(robot, clock);
+        robot.known |= message.genes;
+        return nullptr;
+    }
+
+    const char* receive_stamp(World& world, int r, Stamp stamp) const {
+        if (scope_.gate) return receive(world, r, {stamp.value, 0});
+        Clock clock = clock_of(world, r);
+        if (Rules::merge_stamp(clock, stamp)) put(world.robots[index(r)], clock);
+        return nullptr;
     }
 
     static MarkSet forged_genes(const World& world, const Action& action) {
@@ -405,10 +454,16 @@ private:
 
     const char* broken_promise(const World& world) const {
         if (scope_.budget) {
-            const int budget =
-                1 + world.minted + scope_.block * world.crashes + scope_.window * world.forged;
             for (int r = 0; r < scope_.robots; ++r) {
-                if (world.robots[index(r)].next > budget) return "a counter exceeds its budget";
+                if (world.robots[index(r)].next > 1 + world.spent) {
+                    return "a counter exceeds its budget";
+                }
+            }
+        }
+        for (int r = 0; scope_.gate && r < scope_.robots; ++r) {
+            const RobotState& robot = world.robots[index(r)];
+            if (robot.is_up && robot.next > robot.line) {
+                return "receptions move a clock further than has been earned";
             }
         }
         if (!scope_.check_invariants) return nullptr;
@@ -416,8 +471,11 @@ private:
             const RobotState& robot = world.robots[index(r)];
             if (!robot.is_up) continue;
             if (robot.next < 1 || robot.next > robot.durable || robot.durable > scope_.maximum ||
-                robot.stored > robot.durable) {
+                robot.stored < 1 || robot.stored > scope_.maximum) {
                 return "a counter is out of its range";
+            }
+            if (scope_.gate && robot.next + robot.allowance != robot.line) {
+                return "a gate pays more or less than a clock moves";
             }
             bool is_covered = true;
             for_each_mark(robot.known, [&](Mark mark) { is_covered &= mark.counter < robot.next; });
@@ -434,7 +492,6 @@ private:
     }
 
     Scope scope_;
-    Clock::Limits limits_;
     int counters_;
     int counter_bits_;
     int mark_bits_;
