@@ -3,7 +3,7 @@
    limits MAXIMUM BLOCK WINDOW GENESIS, which starts anew; flush ROBOT, which persists all that is
    reserved; known ROBOT; align GENOME / GENOME; snapshot NEXT DURABLE, which restores a state; and
    wire, see wire.ml. crash ROBOT BLOCK restarts without a gate, crash ROBOT BLOCK ALLOWANCE
-   PER_CYCLE CEILING behind one. A mark is two words, counter and robot. *)
+   PER_CYCLE CEILING behind one. What is about genomes is in operators.ml. A mark is two words, counter and robot. *)
 open Proved
 open Words
 
@@ -103,4 +103,7 @@ let answer = function
       "aligned" ^ String.concat "" (List.map show_aligned alignment)
   | [ "wire"; frame_bytes; genesis; neurons; connections; energy; weight; frame ] ->
       Wire.answer frame_bytes genesis neurons connections energy weight frame
-  | words -> malformed "no such command: '%s'" (String.concat " " words)
+  | words -> (
+      match Operators.answer words with
+      | Some text -> text
+      | None -> malformed "no such command: '%s'" (String.concat " " words))

@@ -314,6 +314,14 @@ Definition crossover_keeps_fitter_marks : Prop :=
     (exists which, child = map fst (filter snd (combine (map mark_of fitter) which)))
     /\ ((forall so_far a, keep so_far a = true) -> child = map mark_of fitter).
 
+(** So do the children of odNEAT's own two crossovers, whatever is drawn. *)
+Definition odneat_keeps_fitter_marks : Prop :=
+  forall (fitter weaker : list connection) draws from_other,
+    let is_selection (child : list connection) := exists which,
+      map innovation child = map fst (filter snd (combine (map innovation fitter) which)) in
+    is_selection (fst (crossover innovation choose_uniformly reverses_none draws fitter weaker))
+    /\ is_selection (fst (crossover innovation choose_listed reverses_none from_other fitter weaker)).
+
 (** Two parents, and two markings of the genes that both respect the order of creation. *)
 Definition compared (l : limits) (operations : list operation) {gene} (mark_of : gene -> mark)
     (a b : list gene) (one two : mark -> mark) : Prop :=

@@ -40,6 +40,64 @@ Definition distance (c1 c2 c3 : Q) (size : positive) (difference : list (gene * 
    + c3 * difference (matches alignment))%Q.
 End Crossover.
 
+(** ** What odNEAT decides by
+
+    The choices of [neat/src/crossover.cpp] and the weights of [neat/src/distance.cpp]; everything
+    above holds for any others. *)
+
+Record connection := Connection {
+  innovation : mark;
+  source : mark;  (** the neurons that it joins *)
+  target : mark;
+  recurrent : bool;
+  weight : Z;     (** in any unit *)
+  enabled : bool
+}.
+
+(** The fitter of two parents; at equal fitness the smaller, then the second. *)
+Definition is_first_fitter (fitness1 fitness2 : Z) (size1 size2 : nat) : bool :=
+  if (fitness1 =? fitness2)%Z then (size1 <? size2)%nat else (fitness2 <? fitness1)%Z.
+
+Definition reweighted (a : connection) (w : Z) (on : bool) : connection :=
+  Connection (innovation a) (source a) (target a) (recurrent a) w on.
+
+(** Uniform crossover. A draw is a number from [0, 1), of which only two things matter: whether it
+    lies below one half, and below the probability to disable. *)
+Definition draw : list (bool * bool) -> (bool * bool) * list (bool * bool) :=
+  fun draws => match draws with d :: rest => (d, rest) | [] => ((false, false), []) end.
+Definition choose_uniformly (draws : list (bool * bool)) (a b : connection)
+  : connection * list (bool * bool) :=
+  let '((from_other, _), draws) := draw draws in
+  let w := if from_other then weight b else weight a in
+  if xorb (enabled a) (enabled b)
+  then let '((_, disable), draws) := draw draws in (reweighted a w (negb disable), draws)
+  else (reweighted a w (enabled a), draws).
+
+(** Crossover at one point: which of the matching genes, oldest first, come from the other. *)
+Definition choose_listed (from_other : list bool) (a b : connection) : connection * list bool :=
+  match from_other with
+  | true :: rest => (reweighted a (weight b) (enabled b), rest)
+  | false :: rest => (a, rest)
+  | [] => (a, [])
+  end.
+
+(** No connection joins the child that reverses a feed-forward one of it. *)
+Definition reverses_none (child : list connection) (a : connection) : bool :=
+  negb (existsb (fun c => negb (recurrent c) && mark_eqb (source c) (target a)
+                          && mark_eqb (target c) (source a)) child).
+
+(** The differences of weights that count are those of genes enabled in both; their sum, or their
+    mean. Weights are in units of 1/[unit]. *)
+Definition both_enabled (pair : connection * connection) : bool :=
+  enabled (fst pair) && enabled (snd pair).
+Definition differences (pairs : list (connection * connection)) : Z :=
+  fold_right (fun pair sum => Z.abs (weight (fst pair) - weight (snd pair)) + sum)%Z 0%Z
+    (filter both_enabled pairs).
+Definition weight_sum (unit : positive) (pairs : list (connection * connection)) : Q :=
+  differences pairs # unit.
+Definition weight_mean (unit : positive) (pairs : list (connection * connection)) : Q :=
+  differences pairs # (unit * Pos.max 1 (Pos.of_nat (length (filter both_enabled pairs)))).
+
 (** ** A swarm: robots that hold genomes
 
     A genome is its list of marks. Weight mutation and cloning change no marks. Forgetting a genome

@@ -94,6 +94,14 @@ Proof.
   - intros Keep. rewrite (inherit_keeps_all mark_of choose keep _ C Keep). now rewrite P.
 Qed.
 
+Theorem odneat_keeps_fitter_marks : Claims.odneat_keeps_fitter_marks.
+Proof.
+  intros fitter weaker draws from_other. split; apply crossover_keeps_fitter_marks.
+  - intros d a b _. unfold choose_uniformly. destruct (draw d) as ((? & ?), d').
+    destruct (xorb _ _); [|reflexivity]. now destruct (draw d') as ((? & ?), ?).
+  - intros d a b _. destruct d as [|[] d]; reflexivity.
+Qed.
+
 (** ** A normal form of the alignment that forgets the order between the parents *)
 
 Section Pairing.

@@ -393,6 +393,32 @@ Example crossover_keeps_fitter_marks_witness :
   = ([(Mark 1 0, 1%Z); (Mark 2 7, 1%Z); (Mark 3 3, 2%Z); (Mark 6 3, 1%Z)], [true; false; true]).
 Proof. vm_compute. reflexivity. Qed.
 
+(** A feed-forward connection, its reversal, and one of the other parent's own. The draws: the first
+    weight is the other's, and what one parent has disabled stays so; the second is the fitter's. *)
+Definition forth := Connection (Mark 2 7) (Mark 1 0) (Mark 3 0) false 5%Z true.
+Definition back := Connection (Mark 4 7) (Mark 3 0) (Mark 1 0) false 6%Z true.
+Definition forth_elsewhere := Connection (Mark 2 7) (Mark 1 0) (Mark 3 0) false (-5)%Z false.
+Definition elsewhere := Connection (Mark 6 9) (Mark 1 0) (Mark 1 0) true 1%Z true.
+Example odneat_keeps_fitter_marks_witness :
+  crossover innovation choose_uniformly reverses_none [(true, false); (false, true); (true, true)]
+    [forth; back] [forth_elsewhere; elsewhere]
+  = ([reweighted forth (-5)%Z false], [(true, true)])
+  /\ crossover innovation choose_listed reverses_none [false] [forth; back] [forth_elsewhere; elsewhere]
+     = ([forth], []).
+Proof. split; reflexivity. Qed.
+
+(** Fitness decides; at a tie the smaller, then the second. *)
+Example fitter_witness : map (fun p => is_first_fitter (fst (fst p)) (snd (fst p)) (fst (snd p)) (snd (snd p)))
+    [((2, 1)%Z, (9, 1)%nat); ((1, 2)%Z, (1, 9)%nat); ((1, 1)%Z, (1, 2)%nat); ((1, 1)%Z, (2, 2)%nat)]
+  = [true; false; true; false].
+Proof. reflexivity. Qed.
+
+(** One pair is enabled in both. *)
+Example weight_terms_witness :
+  let pairs := [(forth, forth_elsewhere); (back, elsewhere); (back, back)] in
+  (weight_sum 10 pairs == 1#2)%Q /\ (weight_mean 10 pairs == 1#4)%Q.
+Proof. split; reflexivity. Qed.
+
 (** Two robots at work unheard; the same genes marked by gene clocks, and by the time at which
     they were made. *)
 Definition apart : list operation := [AddGenes 2 0 2; AddGenes 1 0 1].

@@ -3,7 +3,9 @@
  * C firmware includes this header as it is and gets 64-bit counters. C++ gets the same text as
  * function templates over any unsigned counter type, which is how the explicit-state tests run
  * the shipped code with 8-bit counters. GeneClock, InnovationNumber and align() are thin wrappers
- * around these functions: there is no second implementation.
+ * around these functions: there is no second implementation of any of this in protocol/. (The
+ * distance of neat/ counts unmatched genes by a merge of its own, for speed; tests/oracle compares
+ * it with the proved alignment.)
  *
  * The comments that begin with an at sign are contracts in ACSL. Frama-C proves that every
  * function keeps its contract for all inputs, without overflow or invalid access
