@@ -68,11 +68,11 @@ inline constexpr RecordedScope full_scopes[] = {
     {"AnythingStored", {.robots = 2, .maximum = 5, .stored_beyond = 255}, 2'869'096, 25'380'420},
     {"ThreeRobotsOneMessage", {.robots = 3, .maximum = 4, .messages = 1}, 8'045'337, 66'794'382},
     {"ThreeRobotsThreeMessages",
-     {.robots = 3, .maximum = 3, .messages = 3},
+     {.robots = 3, .maximum = 3, .messages = 3, .older_writes = false},
      20'661'538,
      268'469'849},
     {"TwoRobotsSixCountersThreeMessages",
-     {.robots = 2, .maximum = 7, .messages = 3},
+     {.robots = 2, .maximum = 7, .messages = 3, .older_writes = false},
      51'835'972,
      561'385'058},
 };

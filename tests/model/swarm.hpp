@@ -73,7 +73,9 @@ public:
             }
             // Any write that was begun may be the one that completes.
             const int most = std::min<int>(scope_.maximum, robot.durable + scope_.stored_beyond);
-            for (int value = robot.stored + 1; value <= most; ++value) {
+            const int next = robot.stored + 1;
+            for (int value = scope_.older_writes ? next : std::max<int>(next, robot.durable);
+                 value <= most; ++value) {
                 const auto counter = static_cast<Counter>(value);
                 if (!budget || world.stored + beyond_need(robot, counter) <= budget->stored) {
                     visit(Action{flush, r, 0, counter});

@@ -20,9 +20,10 @@ struct Scope {
     int messages = 2;                           ///< in the air at the same time
     Counter largest_mint = 1;                   ///< genes that one mutation adds, all or none
     /// How far beyond need a robot may store, as one does that numbers its genomes by the same
-    /// counter. Older values than the one that is needed are stored in any case.
+    /// counter.
     Counter stored_beyond = 0;
-    bool overhears = false;  ///< robots may also take a message's stamp alone
+    bool older_writes = true;  ///< values below the one that is needed may be stored as well
+    bool overhears = false;    ///< robots may also take a message's stamp alone
     /// Before each clock stands a gate of this policy, and time goes by.
     std::optional<Gate::Policy> gate = std::nullopt;
     /// With it, runs are bounded by these four, what they cost is added up as
