@@ -467,6 +467,19 @@ TEST_F(AgentTest, GivesARobotNoMoreThanItsShareOfThePopulation) {
     of_eight.id.robot = RobotId{8};
     const Message from_eight{std::make_shared<const Genome>(std::move(of_eight)), 0.0f, {}};
     EXPECT_EQ(agent.receive(RobotId{8}, from_eight), Reception::accepted) << "another's share";
+    EXPECT_EQ(agent.receive(RobotId{9}, message(3, -5.0f, 80.0f)), Reception::accepted);
+    EXPECT_TRUE(holds(agent, {RobotId{8}, 0})) << "less fit, but not a genome of that robot";
+    EXPECT_FALSE(holds(agent, {RobotId{9}, 0}));
+}
+
+TEST_F(AgentTest, AsksForNoOtherPlaceForAGenomeThatItHolds) {
+    settings_.population = 5;
+    settings_.held_reports = HeldReports::acceptable;
+    Agent agent(RobotId{1}, settings_, topology_,
+                std::make_unique<GeneClockSource>(RobotId{1}, genesis_marks), RandomStream(1, 1),
+                {.members_per_maker = 1});
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 50.0f)), Reception::accepted);
+    EXPECT_EQ(agent.receive(RobotId{9}, message(0, 9.0f, 40.0f)), Reception::updated);
 }
 
 TEST_F(AgentTest, KeepsPlacesForItsOwnGenomes) {
@@ -505,6 +518,15 @@ TEST_F(AgentTest, MayBelieveThatNobodyIsFitterThanItsOwn) {
     EXPECT_EQ(fitness_of(agent, {RobotId{9}, 0}), 75.0f);
     EXPECT_EQ(agent.receive(RobotId{9}, message(1, -9.0f, 30.0f)), Reception::accepted);
     EXPECT_EQ(fitness_of(agent, {RobotId{9}, 1}), 30.0f);
+
+    Agent failing(RobotId{1}, settings_, topology_,
+                  std::make_unique<GeneClockSource>(RobotId{1}, genesis_marks), RandomStream(1, 1),
+                  {.may_excel = false});
+    EXPECT_EQ(failing.receive(RobotId{9}, message(0, 9.0f, 100.0f)), Reception::accepted);
+    for (int cycle = 0; cycle < 10; ++cycle) failing.spend(-10.0f);
+    EXPECT_EQ(failing.fitness(), 50.0f);
+    EXPECT_EQ(failing.receive(RobotId{9}, message(1, -9.0f, 90.0f)), Reception::accepted);
+    EXPECT_EQ(fitness_of(failing, {RobotId{9}, 1}), 50.0f) << "fitter than its own is another's";
 }
 
 // Whatever the caller does with its own: agents of a swarm share what they were made with.

@@ -4,6 +4,8 @@
 #include <gene_clocks/authentication/sealed_frames.hpp>
 #include <utility>
 
+#include "protocol/authentication/src/frame_numbers.hpp"
+
 namespace gene_clocks::authentication {
 namespace {
 
@@ -19,23 +21,6 @@ Tag tag_of(std::span<const std::uint8_t> bytes, const Key& key) {
     Tag tag;
     crypto_generichash(tag.data(), tag.size(), bytes.data(), bytes.size(), key.data(), key.size());
     return tag;
-}
-
-/// Whether the number may be opened; notes that it was.
-std::optional<Refusal> enter(ReplayWindow& window, std::uint64_t number) {
-    if (number > window.highest) {
-        const std::uint64_t leap = number - window.highest;
-        window.opened = leap < ReplayWindow::size ? window.opened << leap : 0;
-        window.opened |= 1;
-        window.highest = number;
-        return std::nullopt;
-    }
-    const std::uint64_t age = window.highest - number;
-    if (age >= ReplayWindow::size) return Refusal::too_old;
-    const std::uint64_t bit = std::uint64_t{1} << age;
-    if ((window.opened & bit) != 0) return Refusal::replayed;
-    window.opened |= bit;
-    return std::nullopt;
 }
 
 }  // namespace
@@ -69,8 +54,7 @@ Opener::~Opener() {
 }
 
 std::variant<Frame, Refusal> Opener::examine(std::span<const std::uint8_t> sealed) {
-    // Lengths first: nobody makes us hash more than a frame may have.
-    if (sealed.size() < tag_bytes || sealed.size() - tag_bytes > limits_.frame_bytes + 11) {
+    if (sealed.size() < tag_bytes || !may_be_numbered(sealed.size() - tag_bytes, limits_)) {
         return Refusal::forged;
     }
     const auto tagged = sealed.first(sealed.size() - tag_bytes);
@@ -78,21 +62,17 @@ std::variant<Frame, Refusal> Opener::examine(std::span<const std::uint8_t> seale
     if (sodium_memcmp(tag.data(), sealed.last(tag_bytes).data(), tag_bytes) != 0) {
         return Refusal::forged;
     }
-    if (tagged.empty() || tagged.front() != seal_version) return Refusal::malformed;
-    kernel::gene_clocks_reader reader{tagged.data(), tagged.size(), 1};
-    std::uint64_t number = 0;
-    if (kernel::gene_clocks_get_varint(&reader, 64, &number) || number == 0) {
-        return Refusal::malformed;
-    }
-    const auto frame = decode_frame(tagged.subspan(reader.offset), limits_);
-    if (!frame) return Refusal::malformed;
-
-    const auto sender = static_cast<std::uint32_t>(frame->sender);
-    if (!windows_.contains(sender) && windows_.size() >= senders_max_) {
+    const auto numbered = read_numbered(tagged, seal_version, limits_);
+    if (!numbered) return Refusal::malformed;
+    const auto sender = static_cast<std::uint32_t>(numbered->frame.sender);
+    const auto known = windows_.find(sender);
+    if (known == windows_.end() && windows_.size() >= senders_max_) {
         return Refusal::too_many_senders;
     }
-    if (const auto refusal = enter(windows_[sender], number)) return *refusal;
-    return *frame;
+    ReplayWindow& window = known == windows_.end() ? windows_[sender] : known->second;
+    if (const auto refusal = find_seen(window, numbered->number)) return *refusal;
+    enter(window, numbered->number);
+    return numbered->frame;
 }
 
 std::variant<Frame, Refusal> Opener::open(std::span<const std::uint8_t> sealed) {

@@ -198,6 +198,16 @@ TEST_F(SealedFrames, NeverHaveANumberAgainAfterACrash) {
     }
 }
 
+TEST_F(SealedFrames, AreOpenedUnderAnyLimit) {
+    const Bytes sealed = seal(sealer_, frame_of(RobotId{7}));
+    for (const std::uint32_t almost_all : {~0u, ~0u - 10, ~0u - 11}) {
+        WireLimits limits;
+        limits.frame_bytes = almost_all;
+        Opener open{key_of(1), limits};
+        EXPECT_EQ(outcome(open, sealed), "opened") << "no sum wraps around";
+    }
+}
+
 TEST_F(SealedFrames, EndWithTheNumbers) {
     Sealer sealer{key_of(1), GeneClock{RobotId{7}, 0, {.maximum = 2}}};
     EXPECT_TRUE(sealer.seal(frame_of(RobotId{7})));

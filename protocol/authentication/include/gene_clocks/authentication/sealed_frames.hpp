@@ -3,11 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <gene_clocks/authentication/replay_window.hpp>
 #include <gene_clocks/gene_clock.hpp>
 #include <gene_clocks/wire.hpp>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -44,40 +44,12 @@ private:
     std::vector<std::uint8_t> sealed_;
 };
 
-/// Why a sealed frame is not opened.
-enum class Refusal : std::uint8_t {
-    forged,            ///< altered, or sealed without the key
-    malformed,         ///< sealed with the key, but not a frame: see docs/wire-format.md
-    replayed,          ///< a number that was opened before
-    too_old,           ///< a number so far behind that nobody knows whether it was opened
-    too_many_senders,  ///< from one robot more than there is room for
-};
-
-/// Which of one sender's numbers were opened.
-///
-/// Invariants: bit i of `opened` says that highest − i was, or that it does not exist; bit 0 is set
-/// unless nothing was opened yet.
-struct ReplayWindow {
-    std::uint64_t highest = 0;  ///< the largest number opened
-    std::uint64_t opened = 0;
-
-    static constexpr std::uint64_t size = 64;
-};
-
-/// What was opened and what was refused, since the start.
-struct OpenerCounts {
-    std::uint64_t opened = 0;
-    std::array<std::uint64_t, 5> refused{};  ///< by Refusal
-};
-
 /// Opens what `Sealer` sealed, each frame once, in any order within a window of 64 numbers.
 ///
-/// State that a restart needs: `windows()`. An opener that starts without it takes frames once
-/// more that it had opened before: no harm to a clock, but genomes of old come back. Who stores the
-/// windows now and then loses only what was opened since.
+/// State that a restart needs: `windows()`.
 class Opener {
 public:
-    using Windows = std::unordered_map<std::uint32_t, ReplayWindow>;  ///< by sender
+    using Windows = ReplayWindows;
 
     /// `limits` are those of the frames; memory is kept for at most `senders_max` senders.
     Opener(const Key& key, const WireLimits& limits, std::size_t senders_max = 1024,
