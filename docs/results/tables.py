@@ -307,6 +307,23 @@ def tunings():
 TABLES["tunings"] = tunings
 
 
+def same_runs():
+    """Markings that are the same runs as gene clocks, and as each other, seed by seed."""
+    rows = []
+    for task in ("navigation", "collection"):
+        hashes = {arm.source: {run["seed"]: run["trajectory_hash"] for run in arm.runs}
+                  for arm in arms("markings") if arm.task == task}
+        for one, other in (("timestamp", "hybrid-logical-clock"),
+                           ("gene-clock-no-merge", "congruence-class"), ("gene-clock", "timestamp")):
+            same = sum(hashes[one][seed] == hashes[other][seed] for seed in hashes[one])
+            rows.append((task, f"`{one}` and `{other}`", f"{same} of {len(hashes[one])}"))
+    headings = ("task", "markings", "pairs of runs that are the same")
+    return table(rows, [(heading, lambda row, i=i: row[i]) for i, heading in enumerate(headings)])
+
+
+TABLES["same runs"] = same_runs
+
+
 def disjoint():
     """Disjoint genes per alignment where messages are lost, over all losses."""
     rows = []
