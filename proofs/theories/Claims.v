@@ -395,6 +395,17 @@ Definition recordings_accepted : Prop :=
 Definition decode_encode : Prop :=
   forall l m frame, Wire.encode l m = Some frame -> Wire.decode l frame = Some m.
 
+(** … and whatever is well formed and within the limits is written: 16 bytes for a neuron, 26 for a
+    connection and 45 for the rest are always enough. *)
+Definition encode_total : Prop :=
+  forall l m, let content := Wire.content m in let genes := Wire.genes content in
+    Wire.well_formed l (Wire.stamp m) genes -> Wire.fits m = true ->
+    Wire.sender m <> 0 -> Wire.robot content <> 0 -> Wire.genesis_count l < Wire.stamp m ->
+    Wire.within (Wire.energy m) (Wire.energy_max l) = true ->
+    Wire.neurons genes <= Wire.neurons_max l -> Wire.connections genes <= Wire.connections_max l ->
+    45 + 16 * Wire.neurons genes + 26 * Wire.connections genes <= Wire.frame_bytes l ->
+    exists frame, Wire.encode l m = Some frame.
+
 (** … and nothing else is read: every message has one encoding, and all other bytes are refused. *)
 Definition decode_canonical : Prop :=
   forall l frame m, Wire.decode l frame = Some m -> Wire.encode l m = Some frame.

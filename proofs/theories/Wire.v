@@ -206,6 +206,38 @@ Fixpoint admitted (l : limits) (stamp : N) (last : mark) (kinds : list kind)
       end
   end.
 
+(** The same, without reference to the checks above: inputs, the bias and outputs come first and are
+    initial genes, the others are hidden neurons and connections. Neurons are counted from 0, and a
+    connection joins two that come before it, the second of which is no input and no bias. *)
+
+Definition initial (k : kind) (g : gene) : Prop := body_of g = Neuron k /\ maker (mark_of g) = 0.
+Definition is_connection (g : gene) : Prop :=
+  exists enabled recurrent source target weight,
+    body_of g = Connection enabled recurrent source target weight.
+Definition ends_of (g : gene) : list (N * N) :=
+  match body_of g with Connection _ _ source target _ => [(source, target)] | Neuron _ => [] end.
+Definition weight_within (l : limits) (g : gene) : Prop :=
+  match body_of g with
+  | Connection _ _ _ _ weight => within weight (weight_max l) = true
+  | Neuron _ => True
+  end.
+
+Record well_formed (l : limits) (stamp : N) (genes : list gene) : Prop := {
+  in_order : sorted (map mark_of genes);
+  below_stamp : Forall (fun g => let m := mark_of g in
+    1 <= counter m < stamp /\ (maker m = 0 <-> counter m <= genesis_count l)) genes;
+  built_up : exists inputs bias outputs later, genes = inputs ++ bias :: outputs ++ later
+    /\ Forall (initial Input) inputs /\ initial Bias bias
+    /\ Forall (initial Output) outputs /\ outputs <> []
+    /\ Forall (fun g => body_of g = Neuron Hidden \/ is_connection g) later
+    /\ forall before g after source target, later = before ++ g :: after ->
+         ends_of g = [(source, target)] ->
+         let known := N.of_nat (length inputs) + 1 + N.of_nat (length outputs) + neurons before in
+         source < known /\ N.of_nat (length inputs) + 1 <= target < known;
+  joined_once : NoDup (flat_map ends_of genes);
+  weights_within : Forall (weight_within l) genes
+}.
+
 (** ** Genomes *)
 
 Definition valid_genome (l : limits) (stamp : N) (g : genome) : bool :=

@@ -362,6 +362,19 @@ Example each_damage_is_refused :
   = true.
 Proof. vm_compute. reflexivity. Qed.
 
+(** [well_formed]: a genome without an output has no encoding, nor has one whose connection ends in the
+    bias, one with two connections between the same neurons, or one that is beyond the limits. *)
+Definition encodes (genes : list Wire.gene) : bool :=
+  match Wire.encode wire_limits (Wire.Message 9 12 1112014848 (Wire.Genome 9 3 genes)) with
+  | Some _ => true | None => false end.
+Definition another (source target : N) : list Wire.gene :=
+  two_hidden ++ [Wire.Gene (Mark 11 10) (Wire.Connection true false source target 0)].
+Example well_formed_is_needed :
+  map encodes [two_hidden; another 3 4; firstn 2 two_hidden; another 3 1; another 4 2; another 5 2;
+               two_hidden ++ repeat (Wire.Gene (Mark 11 10) (Wire.Neuron Wire.Hidden)) 2]
+  = [true; true; false; false; false; false; false].
+Proof. vm_compute. reflexivity. Qed.
+
 (** Limits may be infinite; numbers may not. *)
 Example infinity_is_never_within : map (fun bits => Wire.within bits (255 * 2 ^ 23))
   [255 * 2 ^ 23 - 1; 255 * 2 ^ 23; 511 * 2 ^ 23; 2 ^ 31 - 1; 2 ^ 32 - 1]

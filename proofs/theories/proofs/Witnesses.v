@@ -3,7 +3,7 @@ From Coq Require Import NArith QArith List Sorting.Sorted.
 From GeneClocks Require Import Mark Alignment Clock Admission Protocol Genome Recording.
 From GeneClocks Require Claims Trace Wire.
 From GeneClocks.proofs Require Import Order Merge Arithmetic Invariant Safety Durability Bounds
-  Provenance Allowance Chain Crossover NoFalseAlarms TraceSafety.
+  Provenance Allowance Chain Crossover NoFalseAlarms TraceSafety WireCodec WireTotal.
 Import ListNotations.
 Open Scope N_scope.
 
@@ -585,6 +585,41 @@ Definition sent_frame : list N := without_sum ++ [39; 108; 11; 44].
 
 Example decode_encode_witness : Wire.encode wire_limits sent_message = Some sent_frame.
 Proof. vm_compute. reflexivity. Qed.
+
+(** The same genome, split once more by robot 9, and its frame. *)
+Definition two_hidden : list Wire.gene := Wire.genes (Wire.content sent_message) ++
+  [Wire.Gene (Mark 9 9) (Wire.Neuron Wire.Hidden);
+   Wire.Gene (Mark 10 9) (Wire.Connection true false 1 4 1065353216);
+   Wire.Gene (Mark 11 9) (Wire.Connection true false 4 2 3196059648)].
+Definition of_two_hidden := Wire.Message 9 12 1112014848 (Wire.Genome 9 3 two_hidden).
+
+Lemma two_hidden_well_formed : Wire.well_formed wire_limits 12 two_hidden.
+Proof.
+  split.
+  - cbn. sorted_now.
+  - repeat constructor; cbn; try discriminate; intros H; exfalso; now (discriminate H || apply H).
+  - exists (firstn 1 two_hidden), (nth 1 two_hidden (Wire.Gene (Mark 0 0) (Wire.Neuron Wire.Input))),
+      (firstn 1 (skipn 2 two_hidden)), (skipn 3 two_hidden).
+    split; [reflexivity|]. do 3 (split; [repeat constructor|]). split; [discriminate|]. split.
+    + repeat (apply Forall_cons; [solve [left; reflexivity | right; repeat eexists]|]).
+      apply Forall_nil.
+    + intros before g after source target E Ends. vm_compute in E.
+      do 8 (destruct before as [|? before]; cbn [app] in E;
+        [injection E as <- _; cbn in Ends; try discriminate Ends; injection Ends as <- <-;
+         vm_compute; repeat split; discriminate || reflexivity
+        | injection E as <- E]).
+      destruct before; discriminate.
+  - cbn. repeat constructor; cbn; intuition discriminate.
+  - repeat constructor.
+Qed.
+
+Example encode_total_witness : exists frame, Wire.encode wire_limits of_two_hidden = Some frame
+  /\ Wire.decode wire_limits frame = Some of_two_hidden.
+Proof.
+  destruct (encode_total wire_limits of_two_hidden two_hidden_well_formed) as (frame & E);
+    try reflexivity; try discriminate.
+  exists frame. split; [exact E|]. now apply decode_encode.
+Qed.
 
 Example decode_canonical_witness : Wire.decode wire_limits sent_frame = Some sent_message.
 Proof. vm_compute. reflexivity. Qed.
