@@ -269,6 +269,21 @@ TEST_F(WorldTest, RobotsTurnFirstAndThenGoAlongTheirNewHeading) {
     EXPECT_NEAR(world.y_px()[0] - y, std::sin(turned), 1e-4);
 }
 
+TEST_F(WorldTest, HeadingsTurnByTheShareOfTheLargestRotationThatIsAsked) {
+    settings_.world.rotation_deg = 60.0;
+    World world = make_world();
+    for (int share = -10; share <= 10; ++share) {
+        const std::vector<float> x(world.heading_x().begin(), world.heading_x().end());
+        const std::vector<float> y(world.heading_y().begin(), world.heading_y().end());
+        move(world, 0.0f, static_cast<float>(share) / 10.0f);
+        for (std::size_t i = 0; i < world.robots(); ++i) {
+            const double angle = std::atan2(y[i], x[i]) + share / 10.0 * std::acos(-1.0) / 3.0;
+            EXPECT_NEAR(world.heading_x()[i], std::cos(angle), 1e-5) << share;
+            EXPECT_NEAR(world.heading_y()[i], std::sin(angle), 1e-5) << share;
+        }
+    }
+}
+
 TEST_F(WorldTest, HeadingsKeepUnitLength) {
     settings_.world.rotation_deg = 60.0;  // where the polynomials err the most
     World world = make_world();
