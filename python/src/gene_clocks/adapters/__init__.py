@@ -1,0 +1,1 @@
+"""Adapters: Gene Clocks inside of other people's NEATs, without importing them."""
