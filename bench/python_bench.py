@@ -101,7 +101,7 @@ def decode_in_python(data):
     return robot, birth, classes
 
 
-def microseconds(work, rounds=7, seconds=0.05):
+def microseconds(work, rounds=25, seconds=0.02):
     count, best = 1, None
     while True:
         start = time.process_time()

@@ -66,8 +66,11 @@ void define_errors(py::module_& module) {
             if (pointer) std::rethrow_exception(pointer);
         } catch (const WireRefusal& refusal) {
             const py::handle type = python_object("gene_clocks._errors", "WireError");
-            const py::object error = type(std::string(name_of(refusal.fault.error)),
-                                          refusal.fault.offset, refusal.where, **refusal.details);
+            const py::object error =
+                type(std::string(name_of(refusal.fault.error)),
+                     refusal.is_of_writing ? py::object(py::none())
+                                           : py::object(py::int_(refusal.fault.offset)),
+                     refusal.where, **refusal.details);
             PyErr_SetObject(type.ptr(), error.ptr());
         }
     });

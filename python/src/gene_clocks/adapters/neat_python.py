@@ -205,7 +205,7 @@ class NeatIsland:
         schema = self._island.schema
         inputs = self.tracker.inputs
         nodes = sorted(genome.nodes.values(), key=lambda node: self._mark_of(node.key))
-        connections = sorted(genome.connections.values(), key=lambda one: one.innovation)
+        connections = sorted(genome.connections.values(), key=lambda one: int(one.innovation))
         place = {-i - 1: i for i in range(inputs)}
         place |= {node.key: inputs + i for i, node in enumerate(nodes)}
         for one in connections:
