@@ -76,7 +76,7 @@ def try_in_venv(wheel, venv, tests):
 
 
 def main():
-    missing = subprocess.run([PYTHON, "-c", "import pip, venv, ensurepip, wheel, setuptools\n"
+    missing = subprocess.run([PYTHON, "-c", "import setuptools, wheel, pip, venv, ensurepip\n"
                               "import pybind11.setup_helpers"], capture_output=True, check=False)
     if missing.returncode != 0:
         print("Skipped: there is no /usr/bin/python3 with pip, venv, setuptools, wheel and pybind11")
