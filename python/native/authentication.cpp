@@ -23,6 +23,7 @@ namespace {
 using namespace authentication;
 
 constexpr std::size_t tag_bytes = 16;
+/// Those of sealed frames, in the order of Refusal.
 constexpr std::array<const char*, 5> refusal_names{"forged", "malformed", "replayed", "too_old",
                                                    "too_many_senders"};
 
