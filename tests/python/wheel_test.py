@@ -93,7 +93,7 @@ def main():
     after = listing(source / "python")
     if before != after:
         sys.exit(f"left in the checkout: {sorted(set(after) ^ set(before))}")
-    (sdist,) = (work / "sdist").glob("gene_clocks-*.tar.gz") or [None]
+    (sdist,) = (work / "sdist").glob("gene[-_]clocks-*.tar.gz")
     from_sdist = build_wheel(sdist, work / "from_sdist")
     version = try_in_venv(from_sdist, work / "venv", tests)
     check_contents(from_sdist, version)
