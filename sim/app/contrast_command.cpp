@@ -6,7 +6,6 @@
 #include "sim/app/commands.hpp"
 #include "sim/app/contrast_tables.hpp"
 #include "sim/app/output_file.hpp"
-#include "sim/app/study_report.hpp"
 #include "sim/report/contrast.hpp"
 
 namespace gene_clocks::app {
@@ -24,7 +23,7 @@ struct Options {
 int run(Options options) {
     if (!options.baseline.empty()) options.plan.baseline = options.baseline;
     require_different({{"--csv", options.csv}, {"--paired-csv", options.paired_csv}});
-    const report::Input input = read_input(options.store, options.studies);
+    const report::Input input = report::read_input(options.store, options.studies);
     const report::Contrasts contrasts = report::contrast(input, options.plan);
     const std::string& measure = options.plan.measure;
     std::optional<Output> csv;

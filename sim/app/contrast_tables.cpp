@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "sim/experiment/store/csv_export.hpp"
+#include "sim/report/measures.hpp"
 #include "sim/settings/choice_names.hpp"
 
 namespace gene_clocks::app {
@@ -69,6 +70,17 @@ std::string title_of(const PairedContrast& row, bool with_profile) {
                        with_profile ? row.family.second : "", change_text(row));
 }
 
+/// What t_f and f_a refer to, as two fields.
+std::string best_fields(const experiment::BestSwarmFitness& best) {
+    return fmt::format("{},{}", best.value, experiment::csv_field(best.over));
+}
+
+/// Where the measure refers to the best swarm fitness: which that is.
+std::string best_text(const experiment::BestSwarmFitness& best, const std::string& measure) {
+    if (!report::refers_to_best(measure)) return {};
+    return fmt::format("; best swarm fitness {:.2f}, over {}", best.value, best.over);
+}
+
 }  // namespace
 
 void write_csv(const std::vector<Contrast>& rows, const std::string& measure, std::ostream& out) {
@@ -76,7 +88,8 @@ void write_csv(const std::vector<Contrast>& rows, const std::string& measure, st
                "measure,task,profile,arm,baseline,runs,baseline_runs,pairs,identical,median,"
                "baseline_median,margin,shift,shift_lower,shift_upper,effect,effect_lower,"
                "effect_upper,difference_p_value,difference_p_corrected,equivalence_p_value,"
-               "equivalence_p_corrected,power_equivalence,power_difference,verdict\n");
+               "equivalence_p_corrected,power_equivalence,power_difference,verdict,"
+               "best_swarm_fitness,best_over\n");
     for (const Contrast& row : rows) {
         fmt::print(out, "{},{},{},{},{},{},{},{},{},", measure,
                    experiment::name_of(row.arm->settings.task),
@@ -85,9 +98,10 @@ void write_csv(const std::vector<Contrast>& rows, const std::string& measure, st
         fmt::print(out, "{},{},{},{},{},{},{},{},{},", row.median, row.baseline_median, row.margin,
                    row.shift.estimate, row.shift.interval.lower, row.shift.interval.upper,
                    row.effect, row.effect_interval.lower, row.effect_interval.upper);
-        fmt::print(out, "{},{},{},{},{},{},{}\n", row.difference_p_value,
+        fmt::print(out, "{},{},{},{},{},{},{},{}\n", row.difference_p_value,
                    row.difference_p_corrected, row.equivalence_p_value, row.equivalence_p_corrected,
-                   row.power.equivalence, row.power.difference, name_of(row.verdict));
+                   row.power.equivalence, row.power.difference, name_of(row.verdict),
+                   best_fields(row.best));
     }
 }
 
@@ -97,32 +111,34 @@ void write_csv(const std::vector<PairedContrast>& rows, const std::string& measu
                "measure,task,profile,change,first_arm,arms,seeds,identical,baseline_mean,margin,"
                "difference,difference_lower,difference_upper,difference_p_value,"
                "difference_p_corrected,equivalence_p_value,equivalence_p_corrected,"
-               "power_equivalence,power_difference,verdict\n");
+               "power_equivalence,power_difference,verdict,best_swarm_fitness,best_over\n");
     for (const PairedContrast& row : rows) {
         fmt::print(out, "{},{},{},{},{},{},{},{},{},{},", measure, name_of(row.family.first),
                    experiment::csv_field(row.family.second),
                    experiment::csv_field(change_text(row)), row.first_arm->name, row.arms,
                    row.seeds, row.identical, row.baseline_mean, row.margin);
-        fmt::print(out, "{},{},{},{},{},{},{},{},{},{}\n", row.test.mean, row.test.interval.lower,
-                   row.test.interval.upper, row.difference_p_value, row.difference_p_corrected,
-                   row.equivalence_p_value, row.equivalence_p_corrected, row.power.equivalence,
-                   row.power.difference, name_of(row.verdict));
+        fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{}\n", row.test.mean,
+                   row.test.interval.lower, row.test.interval.upper, row.difference_p_value,
+                   row.difference_p_corrected, row.equivalence_p_value, row.equivalence_p_corrected,
+                   row.power.equivalence, row.power.difference, name_of(row.verdict),
+                   best_fields(row.best));
     }
 }
 
 void print_table(const std::vector<Contrast>& rows, const std::string& measure) {
     std::size_t width = 3;
-    std::vector<const report::Arm*> baselines;  // in the order in which they are held against
+    std::vector<const report::ArmRuns*> baselines;  // in the order in which they are held against
     for (const Contrast& row : rows) {
         width = std::max(width, row.arm->name.size());
         if (std::ranges::find(baselines, row.baseline) == baselines.end())
             baselines.push_back(row.baseline);
     }
-    for (const report::Arm* baseline : baselines) {
+    for (const report::ArmRuns* baseline : baselines) {
         const Contrast& first = *std::ranges::find(rows, baseline, &Contrast::baseline);
-        fmt::print("{}{} against {} (median {:.2f}, {} runs; margin {:.2f})\n",
+        fmt::print("{}{} against {} (median {:.2f}, {} runs; margin {:.2f}{})\n",
                    baseline == baselines.front() ? "" : "\n", measure, baseline->name,
-                   first.baseline_median, first.baseline_runs, first.margin);
+                   first.baseline_median, first.baseline_runs, first.margin,
+                   best_text(first.best, measure));
         fmt::print("  {:<{}} {:>5} {:>9} {:>8}  {:<17} {:<17} {:>7} {:>6} {:>6}  {}\n", "arm",
                    width, "runs", "identical", "median", "shift [95 %]", "A [95 %]", "p diff.",
                    "p eq.", "power", "verdict");

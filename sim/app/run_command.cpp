@@ -37,6 +37,12 @@ double rate(const sim::RunResult& result) {
                                     : 0.0;
 }
 
+RunSummary summary_of(const FinishedTask& run) {
+    const sim::MeasureSettings& measures = run.task->settings->measures;
+    return experiment::summarise(run.result.samples, measures,
+                                 experiment::best_of_run(run.result.samples, measures));
+}
+
 nlohmann::ordered_json to_json(const sim::ChronologyMeasures& measures) {
     auto json = nlohmann::ordered_json::object();
     sim::for_each_measure(measures,
@@ -48,7 +54,7 @@ nlohmann::ordered_json to_json(const RunOptions& options, const FinishedTask& ru
     const sim::Settings& settings = *run.task->settings;
     const sim::RunResult& result = run.result;
     const sim::RunCounters& counters = result.counters;
-    const RunSummary summary = experiment::summarise(result.samples, settings.measures);
+    const RunSummary summary = summary_of(run);
     nlohmann::ordered_json json = {
         {"task", experiment::name_of(settings.task)},
         {"source", experiment::name_of(settings.source)},
@@ -59,6 +65,8 @@ nlohmann::ordered_json to_json(const RunOptions& options, const FinishedTask& ru
         {"f_b", summary.measures.f_b},
         {"t_f", summary.measures.t_f},
         {"f_a", summary.measures.f_a},
+        {"best_swarm_fitness", summary.best.value},
+        {"best_over", summary.best.over},
         {"final_swarm_fitness", summary.final_swarm_fitness},
         {"swarm_fitness_at_10000", nullptr},
         {"species", summary.species},
@@ -87,8 +95,7 @@ nlohmann::ordered_json to_json(const RunOptions& options, const FinishedTask& ru
 }
 
 void print_text(const FinishedTask& run) {
-    const sim::Settings& settings = *run.task->settings;
-    const RunSummary summary = experiment::summarise(run.result.samples, settings.measures);
+    const RunSummary summary = summary_of(run);
     const auto line = [](std::string_view name, const std::string& value,
                          std::string_view meaning) {
         fmt::print("{:<20} {:>12}  {}\n", name, value, meaning);
@@ -98,6 +105,8 @@ void print_text(const FinishedTask& run) {
     line("f_b", real(summary.measures.f_b), "swarm fitness at the budget");
     line("t_f", fmt::format("{:.0f}", summary.measures.t_f), "cycles until the target was reached");
     line("f_a", real(summary.measures.f_a), "swarm fitness above the target, summed");
+    line("best swarm fitness", real(summary.best.value),
+         "to which t_f and f_a refer; over " + summary.best.over);
     line("final swarm fitness", real(summary.final_swarm_fitness), "");
     if (summary.swarm_fitness_at_10000) {
         line("at cycle 10000", real(*summary.swarm_fitness_at_10000), "");

@@ -4,12 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/report/report.hpp"
-
 namespace gene_clocks::app {
-
-/// The runs of a store: of all studies, or of the named ones. Throws InputError.
-report::Input read_input(const std::filesystem::path& file, const std::vector<std::string>& names);
 
 /// Writes the report on studies of one store into a folder, and says where it is. All of the
 /// store's studies if none is named. `command` is what the page says computes the same again.

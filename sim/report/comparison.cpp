@@ -45,7 +45,7 @@ void require_sound(const ArmNumbers& numbers) {
     }
 }
 
-ArmNumbers order_runs(const Arm& arm) {
+ArmNumbers order_runs(const ArmRuns& arm) {
     ArmNumbers numbers;
     numbers.arm = &arm;
     for (const Run& run : arm.runs) numbers.runs.push_back(&run);
@@ -55,7 +55,7 @@ ArmNumbers order_runs(const Arm& arm) {
 }
 
 /// Whether two arms may be compared: all else but the source is the same.
-bool comparable(const Arm& one, const Arm& other) {
+bool comparable(const ArmRuns& one, const ArmRuns& other) {
     return one.profile == other.profile &&
            experiment::differing_keys(one.settings, other.settings) ==
                std::vector<std::string>{"source"};
@@ -81,32 +81,17 @@ Role role_of(const Comparison& comparison) {
     return Role::other;
 }
 
-double best_swarm_fitness(const ArmNumbers& numbers) {
-    double best = 0.0;
-    for (const Run* run : numbers.runs)
-        best = std::max(best, experiment::best_swarm_fitness(run->result.samples));
-    return best;
-}
-
 /// `best` is what t_f and f_a refer to.
-void fill_values(ArmNumbers& numbers, double best) {
-    sim::MeasureSettings settings = numbers.arm->settings.measures;
-    settings.best_fitness = best;
+void fill_values(ArmNumbers& numbers, const experiment::BestSwarmFitness& best) {
+    numbers.best = best;
     for (const Run* run : numbers.runs) {
-        const auto summary = experiment::summarise(run->result.samples, settings);
+        const auto summary =
+            experiment::summarise(run->result.samples, numbers.arm->settings.measures, best);
         for (const Measure& measure : measures) {
             if (const auto value = measure.of(summary))
                 numbers.values[measure.id].push_back(*value);
         }
     }
-}
-
-void fill_values(Comparison& comparison) {
-    for (const ArmNumbers& numbers : comparison.arms) {
-        comparison.best_swarm_fitness =
-            std::max(comparison.best_swarm_fitness, best_swarm_fitness(numbers));
-    }
-    for (ArmNumbers& numbers : comparison.arms) fill_values(numbers, comparison.best_swarm_fitness);
 }
 
 std::vector<std::uint64_t> shared_seeds(const ArmNumbers& x, const ArmNumbers& y) {
@@ -154,28 +139,31 @@ const ArmNumbers* Comparison::arm(sim::Source source) const {
 
 std::vector<ArmNumbers> arm_numbers(const Input& input) {
     std::vector<ArmNumbers> all;
-    std::map<Family, double> best;
-    for (const Arm& arm : input.arms) {
+    experiment::ComparedRuns compared;
+    for (const ArmRuns& arm : input.arms) {
         if (arm.runs.empty()) continue;
-        const ArmNumbers& numbers = all.emplace_back(order_runs(arm));
-        double& of_family = best[family_of(arm)];
-        of_family = std::max(of_family, best_swarm_fitness(numbers));
+        all.push_back(order_runs(arm));
+        for (const Run& run : arm.runs)
+            compared.add(family_of(arm), {arm.settings_hash, run.seed}, run.result.samples);
     }
-    for (ArmNumbers& numbers : all) fill_values(numbers, best.at(family_of(*numbers.arm)));
+    for (ArmNumbers& numbers : all) {
+        const ArmRuns& arm = *numbers.arm;
+        fill_values(numbers, compared.best(family_of(arm), arm.settings.measures));
+    }
     return all;
 }
 
 std::vector<Comparison> compare(const Input& input) {
     std::vector<Comparison> comparisons;
-    for (const Arm& arm : input.arms) {
-        if (arm.runs.empty()) continue;
+    for (ArmNumbers& numbers : arm_numbers(input)) {
+        const ArmRuns& arm = *numbers.arm;
         const auto partner = std::ranges::find_if(comparisons, [&](const Comparison& comparison) {
-            return std::ranges::all_of(comparison.arms, [&](const ArmNumbers& numbers) {
-                return comparable(*numbers.arm, arm);
+            return std::ranges::all_of(comparison.arms, [&](const ArmNumbers& other) {
+                return comparable(*other.arm, arm);
             });
         });
         if (partner != comparisons.end()) {
-            partner->arms.push_back(order_runs(arm));
+            partner->arms.push_back(std::move(numbers));
             continue;
         }
         Comparison& comparison = comparisons.emplace_back();
@@ -183,7 +171,8 @@ std::vector<Comparison> compare(const Input& input) {
         comparison.parameters = parameter_set_in(arm.settings);
         comparison.settings = arm.settings;
         comparison.role = role_of(comparison);
-        comparison.arms.push_back(order_runs(arm));
+        comparison.best = numbers.best;
+        comparison.arms.push_back(std::move(numbers));
     }
     if (comparisons.empty()) {
         throw InputError(
@@ -192,12 +181,11 @@ std::vector<Comparison> compare(const Input& input) {
     for (Comparison& comparison : comparisons) {
         std::ranges::sort(comparison.arms, {},
                           [](const ArmNumbers& numbers) { return numbers.arm->settings.source; });
-        fill_values(comparison);
     }
     return comparisons;
 }
 
-Family family_of(const Arm& arm) {
+Family family_of(const ArmRuns& arm) {
     return {arm.settings.task, arm.profile};
 }
 

@@ -8,25 +8,25 @@
 #include <utility>
 #include <vector>
 
-#include "sim/report/report.hpp"
+#include "sim/experiment/study/compared_runs.hpp"
+#include "sim/report/report_input.hpp"
 
 namespace gene_clocks::report {
 
 /// One arm's runs, as numbers.
 struct ArmNumbers {
-    const Arm* arm{};
+    const ArmRuns* arm{};
     std::vector<const Run*>
         runs;  ///< ascending by seed; never empty; all sampled at the same cycles
     /// By measure, in the order of `runs`. A measure that the runs are too short for is absent.
     std::map<std::string_view, std::vector<double>> values;
+    experiment::BestSwarmFitness best;  ///< that t_f and f_a refer to
 };
 
-/// What may be looked at side by side: the arms of one task and one profile.
-using Family = std::pair<sim::Task, std::string>;
-Family family_of(const Arm& arm);
+using experiment::Family;
+Family family_of(const ArmRuns& arm);
 
-/// Every arm that holds runs, in the order of the arms. What refers to the best swarm fitness
-/// refers to that of the arm's family. Throws as `compare` does.
+/// Every arm that holds runs, in the order of the arms. Throws as `compare` does.
 std::vector<ArmNumbers> arm_numbers(const Input& input);
 
 /// Which of the paper's settings a comparison repeats.
@@ -43,7 +43,7 @@ struct Comparison {
     std::string parameters;  ///< empty where the parameters are none of the named sets
     sim::Settings settings;  ///< of the first arm
     Role role{};
-    double best_swarm_fitness{};  ///< over all runs of all arms; t_f and f_a refer to it
+    experiment::BestSwarmFitness best;  ///< that t_f and f_a of all its arms refer to
     std::vector<ArmNumbers> arms;
 
     [[nodiscard]] const ArmNumbers* arm(sim::Source source) const;

@@ -22,6 +22,7 @@ Contrast contrast_of(const ArmNumbers& arm, const ArmNumbers& baseline, const Co
     Contrast contrast;
     contrast.arm = arm.arm;
     contrast.baseline = baseline.arm;
+    contrast.best = arm.best;
     contrast.runs = x.size();
     contrast.baseline_runs = y.size();
     contrast.pairs = shared.pairs;

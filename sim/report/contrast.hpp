@@ -8,7 +8,7 @@
 #include "sim/report/comparison.hpp"
 #include "sim/report/contrast_plan.hpp"
 #include "sim/report/paired_contrast.hpp"
-#include "sim/report/report.hpp"
+#include "sim/report/report_input.hpp"
 #include "sim/statistics/equivalence.hpp"
 
 namespace gene_clocks::report {
@@ -19,8 +19,8 @@ namespace gene_clocks::report {
 /// independent: they are then conservative, in what they find different as in what they find
 /// equivalent. `PairedContrast` makes use of the pairs.
 struct Contrast {
-    const Arm* arm{};
-    const Arm* baseline{};
+    const ArmRuns* arm{};
+    const ArmRuns* baseline{};
     std::size_t runs{};
     std::size_t baseline_runs{};
     std::size_t pairs{};      ///< seeds that both hold
@@ -37,6 +37,7 @@ struct Contrast {
     double equivalence_p_corrected{};      ///< likewise
     statistics::Power power;               ///< of the uncorrected tests, at the margin
     ContrastVerdict verdict{};
+    experiment::BestSwarmFitness best;  ///< that t_f and f_a refer to
 };
 
 Family family_of(const Contrast& contrast);

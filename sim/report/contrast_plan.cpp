@@ -124,6 +124,12 @@ std::vector<ContrastPair> pair_with_baselines(const std::vector<ArmNumbers>& all
         if (baseline == nullptr) {
             left_out.push_back(
                 fmt::format("{}: there is no arm to hold it against", numbers.arm->name));
+        } else if (refers_to_best(plan.measure) && baseline->best.value != numbers.best.value) {
+            left_out.push_back(fmt::format(
+                "{}: its {} refers to the best swarm fitness over {}, that of {} to the best over "
+                "{}: they cannot be compared",
+                numbers.arm->name, plan.measure, numbers.best.over, baseline->arm->name,
+                baseline->best.over));
         } else if (baseline != &numbers && !has_margin({&numbers, baseline}, plan)) {
             left_out.push_back(
                 fmt::format("{}: the {} that it is held against has a median of 0, of which no "

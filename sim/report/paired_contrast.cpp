@@ -95,6 +95,7 @@ std::optional<PairedContrast> contrast_of(const Change& change, const ContrastPl
     contrast.family = change.family;
     contrast.changes = change.settings;
     contrast.first_arm = change.pairs.front().arm->arm;
+    contrast.best = change.pairs.front().arm->best;
     contrast.arms = change.pairs.size();
     contrast.seeds = seeds.size();
     contrast.margin = margin_of(change, plan);

@@ -20,7 +20,7 @@ namespace gene_clocks::report {
 struct PairedContrast {
     Family family;
     std::vector<std::string> changes;  ///< the settings that differ, as in "source=timestamp"
-    const Arm* first_arm{};            ///< the first that differs in that way; never null
+    const ArmRuns* first_arm{};        ///< the first that differs in that way; never null
     std::size_t arms{};                ///< that differ in that way, each with its baseline
     std::size_t seeds{};               ///< that all of them and their baselines hold
     std::size_t identical{};  ///< of arms × seeds pairs of runs, those with the same trajectory
@@ -33,6 +33,7 @@ struct PairedContrast {
     double equivalence_p_corrected{};  ///< likewise
     statistics::Power power;           ///< of the uncorrected tests, at the margin
     ContrastVerdict verdict{};
+    experiment::BestSwarmFitness best;  ///< that t_f and f_a of the first arm refer to
 };
 
 Family family_of(const PairedContrast& contrast);

@@ -280,19 +280,19 @@ Json settings_json(const sim::Settings& settings) {
 
 Json comparison_json(const Comparison& comparison) {
     const sim::Settings& settings = comparison.settings;
-    Json json = {
-        {"task", name_of(settings.task)},
-        {"profile", comparison.profile},
-        {"parameters", comparison.parameters},
-        {"role", name_of_role(comparison.role)},
-        {"best_swarm_fitness", comparison.best_swarm_fitness},
-        {"target_swarm_fitness", settings.measures.target_share * comparison.best_swarm_fitness},
-        {"settings", settings_json(settings)},
-        {"changes", changes_json(comparison)},
-        {"arms", Json::array()},
-        {"tests", nullptr},
-        {"trajectories", nullptr},
-        {"exhibits", exhibits_json(judge(comparison))}};
+    Json json = {{"task", name_of(settings.task)},
+                 {"profile", comparison.profile},
+                 {"parameters", comparison.parameters},
+                 {"role", name_of_role(comparison.role)},
+                 {"best_swarm_fitness", comparison.best.value},
+                 {"best_over", comparison.best.over},
+                 {"target_swarm_fitness", settings.measures.target_share * comparison.best.value},
+                 {"settings", settings_json(settings)},
+                 {"changes", changes_json(comparison)},
+                 {"arms", Json::array()},
+                 {"tests", nullptr},
+                 {"trajectories", nullptr},
+                 {"exhibits", exhibits_json(judge(comparison))}};
     for (const ArmNumbers& numbers : comparison.arms) json["arms"].push_back(arm_json(numbers));
     const ArmNumbers* gene_clock = comparison.arm(sim::Source::gene_clock);
     const ArmNumbers* timestamp = comparison.arm(sim::Source::timestamp);
@@ -344,7 +344,7 @@ Json provenance_json(const Input& input) {
     double cpu_seconds = 0.0;
     double robot_steps = 0.0;
     std::size_t runs = 0;
-    for (const Arm& arm : input.arms) {
+    for (const ArmRuns& arm : input.arms) {
         for (const Run& run : arm.runs) {
             ++runs;
             versions.insert(run.program_version);
@@ -374,7 +374,7 @@ nlohmann::ordered_json report_data(const Input& input) {
                          {"confidence", statistics::BootstrapSettings{}.confidence}};
     json["table_1"] = table_1_json(comparisons);
     json["missing_arms"] = Json::array();
-    for (const Arm& arm : input.arms) {
+    for (const ArmRuns& arm : input.arms) {
         if (arm.runs.empty()) json["missing_arms"].push_back(arm.name);
     }
     json["comparisons"] = Json::array();

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sim/report/report.hpp"
+#include "sim/report/report_input.hpp"
 
 namespace gene_clocks::report {
 

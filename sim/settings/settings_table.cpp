@@ -253,7 +253,7 @@ std::vector<Setting> run_rows() {
             "the target of t_f and f_a as a share of the best swarm fitness"),
         row<&Settings::measures, &MeasureSettings::best_fitness>(
             "measures.best_fitness", energy, "energy", "4.1, Figure 2 (t_f, f_a)",
-            "the best swarm fitness of all compared runs; 0 means this run's own"),
+            "the best swarm fitness that t_f and f_a refer to; 0 means that of all compared runs"),
     };
 }
 

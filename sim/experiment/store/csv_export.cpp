@@ -2,28 +2,28 @@
 
 #include <fmt/ostream.h>
 
-#include <algorithm>
 #include <iomanip>
-#include <map>
 #include <sstream>
 #include <string>
 
+#include "sim/experiment/study/compared_runs.hpp"
 #include "sim/experiment/study/summary.hpp"
 #include "sim/settings/choice_names.hpp"
 
 namespace gene_clocks::experiment {
 namespace {
 
-/// The best swarm fitness of each task's runs: what runs of a study are compared by.
-std::map<sim::Task, double> best_by_task(const Store& store, const StoredStudy& study) {
-    std::map<sim::Task, double> best;
-    for (const StoredArm& arm : study.arms) {
-        double& of_task = best[arm.settings.task];
-        for (const RunRecord& run : store.runs(study, arm)) {
-            of_task = std::max(of_task, best_swarm_fitness(run.result.samples));
+ComparedRuns compared_runs(const Store& store, const std::vector<StoredStudy>& studies) {
+    ComparedRuns compared;
+    for (const StoredStudy& study : studies) {
+        for (const StoredArm& arm : study.arms) {
+            for (const RunRecord& run : store.runs(study, arm)) {
+                compared.add({arm.settings.task, arm.profile}, {run.settings_hash, run.seed},
+                             run.result.samples);
+            }
         }
     }
-    return best;
+    return compared;
 }
 
 /// The columns that say which run a line is about. Names have no commas or quotes, read_study sees
@@ -36,13 +36,13 @@ std::string identity(const StoredStudy& study, const StoredArm& arm, const RunRe
 constexpr std::string_view identity_header = "study,arm,task,source,profile,parameters,seed";
 
 void write_run(const StoredStudy& study, const StoredArm& arm, const RunRecord& run,
-               const sim::MeasureSettings& measures, std::ostream& out) {
-    const RunSummary summary = summarise(run.result.samples, measures);
+               const BestSwarmFitness& best, std::ostream& out) {
+    const RunSummary summary = summarise(run.result.samples, arm.settings.measures, best);
     const sim::RunCounters& counters = run.result.counters;
     const auto& at_10000 = summary.swarm_fitness_at_10000;
-    fmt::print(out, "{},{},{},{},{},{},{},{},{},{},", identity(study, arm, run),
+    fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{},", identity(study, arm, run),
                summary.measures.f_c, summary.measures.f_b, summary.measures.t_f,
-               summary.measures.f_a, summary.final_swarm_fitness,
+               summary.measures.f_a, best.value, csv_field(best.over), summary.final_swarm_fitness,
                at_10000 ? fmt::format("{}", *at_10000) : "", summary.species,
                summary.added_elements, summary.controller_size);
     fmt::print(out, "{},{},{},{},{},{},{},{},{},", counters.births, counters.matings,
@@ -68,7 +68,8 @@ std::string csv_field(const std::string& text) {
 void write_runs_csv(const Store& store, const std::vector<StoredStudy>& studies,
                     std::ostream& out) {
     fmt::print(out,
-               "{},f_c,f_b,t_f,f_a,final_swarm_fitness,swarm_fitness_at_10000,species,"
+               "{},f_c,f_b,t_f,f_a,best_swarm_fitness,best_over,final_swarm_fitness,swarm_fitness_"
+               "at_10000,species,"
                "added_elements,controller_size,births,matings,mutations,genes_created,"
                "messages_sent,messages_received,genomes_accepted,collisions,reboots,",
                identity_header);
@@ -77,13 +78,13 @@ void write_runs_csv(const Store& store, const std::vector<StoredStudy>& studies,
     fmt::print(out,
                "trajectory_hash,robot_steps,cpu_seconds,wall_seconds,finished_at,"
                "program_version,settings_hash\n");
+    const ComparedRuns compared = compared_runs(store, studies);
     for (const StoredStudy& study : studies) {
-        const auto best = best_by_task(store, study);
         for (const StoredArm& arm : study.arms) {
-            sim::MeasureSettings measures = arm.settings.measures;
-            if (measures.best_fitness == 0.0) measures.best_fitness = best.at(arm.settings.task);
+            const BestSwarmFitness best =
+                compared.best({arm.settings.task, arm.profile}, arm.settings.measures);
             for (const RunRecord& run : store.runs(study, arm)) {
-                write_run(study, arm, run, measures, out);
+                write_run(study, arm, run, best, out);
             }
         }
     }

@@ -11,9 +11,9 @@ namespace gene_clocks::experiment {
 std::string csv_field(const std::string& text);
 
 /// Writes one line for each finished run of the studies: what it is, its measures, counters,
-/// measures of chronology and identity. The best swarm fitness that t_f and f_a refer to is that of
-/// all runs of the same task in the study, unless the arm's settings fix it. Numbers are written so
-/// that reading them back gives the same numbers.
+/// measures of chronology and identity. The best swarm fitness that t_f and f_a refer to is taken
+/// over all runs that are written (ComparedRuns). Numbers are written so that reading them back
+/// gives the same numbers.
 void write_runs_csv(const Store& store, const std::vector<StoredStudy>& studies, std::ostream& out);
 
 /// Writes one line for each sample of each finished run.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/experiment/study/run_key.hpp"
 #include "sim/experiment/study/study.hpp"
 
 namespace SQLite {
@@ -18,9 +19,6 @@ class Database;
 }
 
 namespace gene_clocks::experiment {
-
-/// Identifies a run: hash of its settings, and its seed.
-using RunKey = std::pair<std::string, std::uint64_t>;
 
 /// A finished run, as the store keeps it.
 struct RunRecord {

@@ -17,10 +17,12 @@ double mean_of(std::span<const sim::Sample> samples, double sim::Sample::*field)
 
 }  // namespace
 
-RunSummary summarise(const std::vector<sim::Sample>& samples,
-                     const sim::MeasureSettings& settings) {
+RunSummary summarise(const std::vector<sim::Sample>& samples, sim::MeasureSettings settings,
+                     const BestSwarmFitness& best) {
     if (samples.empty()) throw std::invalid_argument("a run without samples has no summary");
+    settings.best_fitness = best.value;
     RunSummary summary;
+    summary.best = best;
     summary.measures = sim::measure(samples, settings);
     summary.final_swarm_fitness = samples.back().swarm_fitness;
     constexpr std::int64_t comparison_cycle = 10'000;
@@ -38,12 +40,6 @@ RunSummary summarise(const std::vector<sim::Sample>& samples,
     summary.added_elements = mean_of(tail, &sim::Sample::added_elements);
     summary.controller_size = mean_of(tail, &sim::Sample::controller_size);
     return summary;
-}
-
-double best_swarm_fitness(const std::vector<sim::Sample>& samples) {
-    double best = 0.0;
-    for (const sim::Sample& sample : samples) best = std::max(best, sample.swarm_fitness);
-    return best;
 }
 
 }  // namespace gene_clocks::experiment

@@ -68,6 +68,15 @@ def load(path):
     return Node(value)
 
 
+def bests(data):
+    """What t_f and f_a refer to: the runs that the best was taken over, and their best swarm fitness."""
+    found = {}
+    for comparison in data["comparisons"]:
+        best = comparison["best_swarm_fitness"]
+        found.setdefault((comparison["best_over"], float(best)), best)
+    return [(over, best) for (over, _), best in found.items()]
+
+
 def show(number, decimals=0):
     """A number for the page: rounded for people, exact and with its place for programs."""
     return _element(number, wording.number(number, decimals))

@@ -54,7 +54,7 @@ def page(data, parts, groups, drawn):
         shown_measures=SHOWN_MEASURES,
         style=(here / "page.css").read_text(encoding="utf-8"))
     return environment.get_template("page.html.jinja").render(
-        data=data, parts=parts, all_groups=groups, figures=drawn,
+        bests=report_data.bests(data), data=data, parts=parts, all_groups=groups, figures=drawn,
         is_paper=exhibits.is_paper(groups))
 
 

@@ -66,7 +66,7 @@ TEST(Comparison, TheTargetComesFromTheBestOfBothMethods) {
         for (const sim::Sample& sample : run.result.samples)
             best = std::max(best, sample.swarm_fitness);
     const Comparison comparison = compare(input).front();
-    EXPECT_EQ(comparison.best_swarm_fitness, best);
+    EXPECT_EQ(comparison.best.value, best);
     // No run at 120 ever gets near nine tenths of 190.
     const auto last = static_cast<double>(input.arms[0].runs[0].result.samples.back().cycle);
     const ArmNumbers& low = *comparison.arm(sim::Source::gene_clock);
@@ -113,7 +113,7 @@ TEST(Comparison, NoHalvesWithoutSharedSeedsOrWithOneRunEach) {
         sample_arm({.source = sim::Source::timestamp, .first_seed = 4, .runs = 3}));
     const Comparison apart = compare(input).front();
     EXPECT_FALSE(independent_halves(apart.arms[0], apart.arms[1], "f_c"));
-    for (Arm& arm : input.arms) {
+    for (ArmRuns& arm : input.arms) {
         arm.runs.resize(1);
         arm.runs[0].seed = 1;
     }
@@ -164,7 +164,7 @@ TEST(Comparison, RunsThatDoNotFitTogetherAreRefused) {
 
 TEST(Comparison, WithoutRunsThereIsNoReport) {
     Input input = sample_input();
-    for (Arm& arm : input.arms) arm.runs.clear();
+    for (ArmRuns& arm : input.arms) arm.runs.clear();
     EXPECT_THROW(compare(input), InputError);
     input.arms.clear();
     EXPECT_THROW(compare(input), InputError);

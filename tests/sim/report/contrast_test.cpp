@@ -23,7 +23,7 @@ Input input_of(const std::vector<SampleArm>& arms) {
     return input;
 }
 
-std::vector<double> final_fitness(const Arm& arm) {
+std::vector<double> final_fitness(const ArmRuns& arm) {
     std::vector<double> values;
     for (const Run& run : arm.runs) values.push_back(run.result.samples.back().swarm_fitness);
     return values;

@@ -23,8 +23,9 @@ using Changes = std::vector<std::string>;
 constexpr const char* losses[] = {"radio.loss=0", "radio.loss=0.5", "radio.loss=0.9"};
 
 /// An arm whose every value of a seed is `higher` than that of an arm of level 140 with that seed.
-Arm arm_of(sim::Source source, const std::string& loss, std::uint64_t seeds, double higher = 0.0) {
-    Arm arm = short_arm(navigation, source, {loss});
+ArmRuns arm_of(sim::Source source, const std::string& loss, std::uint64_t seeds,
+               double higher = 0.0) {
+    ArmRuns arm = short_arm(navigation, source, {loss});
     arm.runs.clear();
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         Run run = sample_run(arm.settings, 140.0, seed);
@@ -124,7 +125,7 @@ TEST(PairedContrast, IsCorrectedWithinItsFamily) {
     input.study = "families";
     for (const sim::Source source : {gene_clock, timestamp, global_counter})
         input.arms.push_back(arm_of(source, losses[0], 8, source == timestamp ? 0.3 : 0.0));
-    for (Arm& arm : input.arms) {  // seeds that do not all say the same
+    for (ArmRuns& arm : input.arms) {  // seeds that do not all say the same
         for (std::size_t i = 0; i < arm.runs.size(); ++i)
             for (sim::Sample& sample : arm.runs[i].result.samples)
                 sample.swarm_fitness += arm.settings.source == gene_clock ? 0.0 : 0.1 * double(i);

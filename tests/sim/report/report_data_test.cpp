@@ -74,7 +74,7 @@ TEST(ReportData, FixedValuesOfTable1AreHeldAgainstAllRuns) {
 
 TEST(ReportData, MeasuresThatTheRunsAreTooShortForAreNull) {
     Input input;
-    Arm arm = sample_arm({.runs = 0});
+    ArmRuns arm = sample_arm({.runs = 0});
     arm.settings.run.cycles = 4000;
     arm.runs.push_back(sample_run(arm.settings, 160.0, 1));
     input.arms.push_back(arm);
@@ -167,7 +167,7 @@ TEST(ReportData, ChronologyIsPerOpportunity) {
 TEST(ReportData, TheSameRunsInAnotherOrderGiveTheSameNumbers) {
     Input input = sample_input();
     const std::string once = report_data(input).dump();
-    for (Arm& arm : input.arms) std::ranges::reverse(arm.runs);
+    for (ArmRuns& arm : input.arms) std::ranges::reverse(arm.runs);
     EXPECT_EQ(report_data(input).dump(), once);
 }
 

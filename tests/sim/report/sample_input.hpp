@@ -68,8 +68,8 @@ inline Run sample_run(const sim::Settings& settings, double level, std::uint64_t
     return run;
 }
 
-inline Arm sample_arm(const SampleArm& sample) {
-    Arm arm;
+inline ArmRuns sample_arm(const SampleArm& sample) {
+    ArmRuns arm;
     arm.profile = "gecco15";
     arm.settings = experiment::select({.task = sample.task,
                                        .source = sample.source,
@@ -77,6 +77,7 @@ inline Arm sample_arm(const SampleArm& sample) {
                                        .parameters = sample.parameters});
     arm.name = std::string(experiment::name_of(sample.task)) + "-" + sample.parameters + "-" +
                std::string(experiment::name_of(sample.source));
+    arm.settings_hash = arm.name;
     for (std::size_t i = 0; i < sample.runs; ++i)
         arm.runs.push_back(sample_run(arm.settings, sample.level, sample.first_seed + i));
     return arm;
@@ -102,9 +103,9 @@ inline Input sample_input() {
 }
 
 /// An arm of few, short runs with some settings of its own.
-inline Arm short_arm(sim::Task task, sim::Source source, const std::vector<std::string>& settings,
-                     std::string name = {}) {
-    Arm arm;
+inline ArmRuns short_arm(sim::Task task, sim::Source source,
+                         const std::vector<std::string>& settings, std::string name = {}) {
+    ArmRuns arm;
     arm.profile = "mended";
     arm.settings = experiment::select({.task = task, .source = source});
     arm.settings.run.cycles = 2000;
@@ -114,6 +115,7 @@ inline Arm short_arm(sim::Task task, sim::Source source, const std::vector<std::
         experiment::assign(arm.settings, setting);
         arm.name += "-" + setting;
     }
+    arm.settings_hash = arm.name;
     if (!name.empty()) arm.name = std::move(name);
     for (std::uint64_t seed = 1; seed <= 3; ++seed)
         arm.runs.push_back(sample_run(arm.settings, 140.0, seed));
@@ -176,7 +178,7 @@ inline Input sample_study(std::string_view kind) {
         add(gene_clock, {}, "<script>alert('arm')</script>");
         add(timestamp, {}, "'\"><svg onload=alert(2)>");
         add(timestamp, {"world.arena=<b>{{ 7 * 7 }}</b>.toml"}, "{{ 7 * 7 }}&lt;");
-        for (Arm& arm : input.arms) arm.profile = "<i>$x^{$ ../../profile</i>.toml";
+        for (ArmRuns& arm : input.arms) arm.profile = "<i>$x^{$ ../../profile</i>.toml";
     }
     return input;
 }

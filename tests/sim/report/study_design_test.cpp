@@ -27,7 +27,7 @@ std::vector<std::string> keys_of(const Factor& factor) {
     return keys;
 }
 
-Input input_of(std::vector<Arm> arms) {
+Input input_of(std::vector<ArmRuns> arms) {
     Input input;
     input.study = "sample";
     input.arms = std::move(arms);
@@ -100,7 +100,7 @@ TEST(StudyDesign, ChoicesOfASingleSourceAreComparedUnderTheOtherSettings) {
 }
 
 TEST(StudyDesign, ChoicesAreConditionsWhereSourcesAreCompared) {
-    std::vector<Arm> arms;
+    std::vector<ArmRuns> arms;
     for (const char* mismatch : {"odneat.mismatch=excess-disjoint", "odneat.mismatch=age"})
         for (const sim::Source source : {gene_clock, timestamp})
             arms.push_back(short_arm(navigation, source, {mismatch}));
@@ -119,7 +119,7 @@ TEST(StudyDesign, ChoicesAreConditionsWhereSourcesAreCompared) {
 // Sizes with their scale: one factor, named by the number that comes first; a repeated scale does
 // not part them.
 TEST(StudyDesign, SettingsThatGoAlongAreOneFactor) {
-    std::vector<Arm> arms;
+    std::vector<ArmRuns> arms;
     for (const auto& [robots, scale] :
          {std::pair{"10", "0.5"}, std::pair{"100", "1.0"}, std::pair{"120", "1.0"}})
         arms.push_back(short_arm(
@@ -147,7 +147,7 @@ TEST(StudyDesign, ACountNamesWhatGoesAlongWithIt) {
 }
 
 TEST(StudyDesign, LevelsOfNumbersAscendAndTheFirstArmIsTheBaseWhereNoneIsUsual) {
-    std::vector<Arm> arms;
+    std::vector<ArmRuns> arms;
     for (const char* loss : {"radio.loss=0.9", "radio.loss=0.1", "radio.loss=0.5"})
         arms.push_back(short_arm(navigation, timestamp, {loss}));
     const Input input = input_of(std::move(arms));

@@ -10,8 +10,8 @@ namespace gene_clocks::report {
 namespace {
 
 /// Runs whose every sample has the same values.
-Arm constant_arm(const SampleArm& sample, double species, double added) {
-    Arm arm = sample_arm(sample);
+ArmRuns constant_arm(const SampleArm& sample, double species, double added) {
+    ArmRuns arm = sample_arm(sample);
     for (report::Run& run : arm.runs) {
         for (sim::Sample& each : run.result.samples) {
             each.swarm_fitness = sample.level;
@@ -77,7 +77,7 @@ TEST(Verdicts, TheReferenceSystemIsHeldAgainstItsOwnParametersOnly) {
 TEST(Verdicts, RunsOfAnotherScaleAreNotJudged) {
     const auto agreement_of = [](auto&& change) {
         Input input;
-        Arm arm = sample_arm({});
+        ArmRuns arm = sample_arm({});
         change(arm.settings);
         arm.runs.clear();
         for (std::uint64_t seed = 1; seed <= 3; ++seed)

@@ -111,7 +111,7 @@ TEST(WriteReport, ASingleMethodIsEnough) {
 TEST(WriteReport, RunsOfOtherParametersHaveNoneOfThePapersFigures) {
     const fs::path folder = empty_folder();
     Input input = small_input();
-    for (Arm& arm : input.arms) arm.settings.odneat.sigma = 0.2;
+    for (ArmRuns& arm : input.arms) arm.settings.odneat.sigma = 0.2;
     write_report(input, folder);
     const auto files = read_all(folder);
     EXPECT_FALSE(fs::exists(folder / "figures" / "as-run"));
@@ -137,7 +137,7 @@ TEST(WriteReport, NothingIsWrittenWithoutAPythonThatCanDraw) {
 TEST(WriteReport, NothingIsWrittenWithoutRuns) {
     const fs::path folder = empty_folder();
     Input input = small_input();
-    for (Arm& arm : input.arms) arm.runs.clear();
+    for (ArmRuns& arm : input.arms) arm.runs.clear();
     EXPECT_THROW(write_report(input, folder / "report"), experiment::InputError);
     EXPECT_FALSE(fs::exists(folder / "report"));
 }

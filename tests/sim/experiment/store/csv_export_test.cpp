@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "sim/experiment/study/summary.hpp"
+#include "sim/experiment/study/compared_runs.hpp"
 #include "tests/sim/experiment/example_study.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -81,7 +81,7 @@ TEST_F(CsvTest, HasALineForEachRun) {
 TEST_F(CsvTest, MeasuresReferToTheBestOfAllComparedRuns) {
     write_runs_csv(store, store.studies(), out);
     const auto rows = parse(out.str());
-    const double best = best_swarm_fitness(example_run(study.arms[0], 5).result.samples);
+    const double best = best_of_run(example_run(study.arms[0], 5).result.samples, {}).value;
     for (const auto& row : rows) {
         const std::uint64_t seed = std::stoull(row.at("seed"));
         const Arm& arm = study.arms[row.at("arm") == "one" ? 0 : 1];
@@ -92,6 +92,8 @@ TEST_F(CsvTest, MeasuresReferToTheBestOfAllComparedRuns) {
         EXPECT_EQ(std::stod(row.at("f_b")), measures.f_b);
         EXPECT_EQ(std::stod(row.at("t_f")), measures.t_f);
         EXPECT_EQ(std::stod(row.at("f_a")), measures.f_a);
+        EXPECT_EQ(std::stod(row.at("best_swarm_fitness")), best);
+        EXPECT_EQ(row.at("best_over"), "3 runs of navigation under profile mended");
     }
 }
 

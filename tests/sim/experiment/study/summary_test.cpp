@@ -20,6 +20,11 @@ std::vector<sim::Sample> ramp(int count) {
     return samples;
 }
 
+RunSummary summarise(const std::vector<sim::Sample>& samples,
+                     const sim::MeasureSettings& settings) {
+    return experiment::summarise(samples, settings, best_of_run(samples, settings));
+}
+
 TEST(Summary, TakesMeansOverTheLastShare) {
     const RunSummary summary = summarise(ramp(40), {.accumulated_share = 0.1});
     EXPECT_EQ(summary.measures.f_c, (36 + 37 + 38 + 39) / 4.0);
@@ -44,10 +49,11 @@ TEST(Summary, NeedsASample) {
     EXPECT_THROW(summarise({}, {}), std::invalid_argument);
 }
 
-TEST(Summary, FindsTheBestFitness) {
-    auto samples = ramp(5);
-    samples[2].swarm_fitness = 77.0;
-    EXPECT_EQ(best_swarm_fitness(samples), 77.0);
+TEST(Summary, SaysWhatTimeToTargetRefersTo) {
+    const RunSummary summary = summarise(ramp(40), {.target_share = 0.5}, {20.0, "some runs"});
+    EXPECT_EQ(summary.measures.t_f, 1000.0);
+    EXPECT_EQ(summary.best.value, 20.0);
+    EXPECT_EQ(summary.best.over, "some runs");
 }
 
 }  // namespace
