@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "sim/experiment/store/csv_export.hpp"
-#include "sim/report/measures.hpp"
+#include "sim/experiment/study/measures.hpp"
 #include "sim/settings/choice_names.hpp"
 
 namespace gene_clocks::app {
@@ -77,7 +77,7 @@ std::string best_fields(const experiment::BestSwarmFitness& best) {
 
 /// Where the measure refers to the best swarm fitness: which that is.
 std::string best_text(const experiment::BestSwarmFitness& best, const std::string& measure) {
-    if (!report::refers_to_best(measure)) return {};
+    if (!experiment::refers_to_best(measure)) return {};
     return fmt::format("; best swarm fitness {:.2f}, over {}", best.value, best.over);
 }
 

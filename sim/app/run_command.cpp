@@ -12,6 +12,7 @@
 #include "sim/app/stop_signal.hpp"
 #include "sim/app/trace_file.hpp"
 #include "sim/experiment/store/store.hpp"
+#include "sim/experiment/study/measures.hpp"
 #include "sim/experiment/study/runner.hpp"
 #include "sim/experiment/study/summary.hpp"
 #include "sim/settings/arena_file.hpp"
@@ -53,7 +54,6 @@ nlohmann::ordered_json to_json(const sim::ChronologyMeasures& measures) {
 nlohmann::ordered_json to_json(const RunOptions& options, const FinishedTask& run) {
     const sim::Settings& settings = *run.task->settings;
     const sim::RunResult& result = run.result;
-    const sim::RunCounters& counters = result.counters;
     const RunSummary summary = summary_of(run);
     nlohmann::ordered_json json = {
         {"task", experiment::name_of(settings.task)},
@@ -61,26 +61,16 @@ nlohmann::ordered_json to_json(const RunOptions& options, const FinishedTask& ru
         {"profile", options.selection.profile},
         {"parameters", experiment::parameter_set_of(options.selection.selection())},
         {"seed", run.task->seed},
-        {"f_c", summary.measures.f_c},
-        {"f_b", summary.measures.f_b},
-        {"t_f", summary.measures.t_f},
-        {"f_a", summary.measures.f_a},
-        {"best_swarm_fitness", summary.best.value},
-        {"best_over", summary.best.over},
-        {"final_swarm_fitness", summary.final_swarm_fitness},
-        {"swarm_fitness_at_10000", nullptr},
-        {"species", summary.species},
-        {"added_elements", summary.added_elements},
-        {"controller_size", summary.controller_size},
-        {"births", counters.births},
-        {"matings", counters.matings},
-        {"mutations", counters.mutations},
-        {"genes_created", counters.genes_created},
-        {"messages_sent", counters.messages_sent},
-        {"messages_received", counters.messages_received},
-        {"genomes_accepted", counters.genomes_accepted},
-        {"collisions", counters.collisions},
-        {"reboots", counters.reboots},
+    };
+    for (const experiment::Measure& measure : experiment::measures) {
+        const auto value = measure.of(summary);
+        json[std::string(measure.id)] = value ? nlohmann::ordered_json(*value) : nullptr;
+    }
+    json["best_swarm_fitness"] = summary.best.value;
+    json["best_over"] = summary.best.over;
+    const auto add = [&](const char* name, const auto& value) { json[name] = value; };
+    sim::for_each_counter(result.counters, add);
+    json.update({
         {"chronology", to_json(result.chronology)},
         {"trajectory_hash", fmt::format("{:016x}", result.trajectory_hash)},
         {"robot_steps", result.robot_steps},
@@ -88,9 +78,7 @@ nlohmann::ordered_json to_json(const RunOptions& options, const FinishedTask& ru
         {"robot_steps_per_cpu_second", rate(result)},
         {"settings_hash", run.task->settings_hash},
         {"program_version", experiment::program_version()},
-    };
-    if (summary.swarm_fitness_at_10000)
-        json["swarm_fitness_at_10000"] = *summary.swarm_fitness_at_10000;
+    });
     return json;
 }
 

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
 #include <utility>
 
+#include "sim/experiment/study/measures.hpp"
 #include "sim/experiment/study/summary.hpp"
-#include "sim/report/measures.hpp"
 #include "sim/report/published.hpp"
 #include "sim/settings/input_error.hpp"
 #include "sim/settings/profile.hpp"
@@ -21,8 +22,11 @@ namespace {
 using experiment::InputError;
 
 bool is_finite(const sim::Sample& sample) {
-    return std::isfinite(sample.swarm_fitness) && std::isfinite(sample.species) &&
-           std::isfinite(sample.added_elements) && std::isfinite(sample.controller_size);
+    bool is_finite = true;
+    sim::for_each_value(sample, [&](const char*, auto value) {
+        is_finite = is_finite && std::isfinite(static_cast<double>(value));
+    });
+    return is_finite;
 }
 
 void require_sound(const ArmNumbers& numbers) {
@@ -87,7 +91,7 @@ void fill_values(ArmNumbers& numbers, const experiment::BestSwarmFitness& best) 
     for (const Run* run : numbers.runs) {
         const auto summary =
             experiment::summarise(run->result.samples, numbers.arm->settings.measures, best);
-        for (const Measure& measure : measures) {
+        for (const experiment::Measure& measure : experiment::measures) {
             if (const auto value = measure.of(summary))
                 numbers.values[measure.id].push_back(*value);
         }
@@ -123,10 +127,18 @@ const Run& run_of(const ArmNumbers& numbers, std::uint64_t seed) {
     return **std::ranges::lower_bound(numbers.runs, seed, {}, &Run::seed);
 }
 
+using SampleValues = std::array<double, sim::sample_values>;
+
+SampleValues values_in(const sim::Sample& sample) {
+    SampleValues values{};
+    sim::for_each_value(sample, [place = values.begin()](const char*, auto value) mutable {
+        *place++ = static_cast<double>(value);
+    });
+    return values;
+}
+
 bool equal_samples(const sim::Sample& one, const sim::Sample& other) {
-    return one.swarm_fitness == other.swarm_fitness && one.species == other.species &&
-           one.added_elements == other.added_elements &&
-           one.controller_size == other.controller_size;
+    return values_in(one) == values_in(other);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "sim/report/measures.hpp"
+#include "sim/experiment/study/measures.hpp"
 #include "sim/settings/input_error.hpp"
 #include "sim/settings/settings_io.hpp"
 #include "sim/settings/settings_table.hpp"
@@ -71,7 +71,7 @@ const ArmNumbers* baseline_of(const ArmNumbers& numbers, const std::vector<ArmNu
 
 void check(const ContrastPlan& plan) {
     std::vector<std::string> names;
-    for (const Measure& measure : measures) names.emplace_back(measure.id);
+    for (const experiment::Measure& measure : experiment::measures) names.emplace_back(measure.id);
     if (std::ranges::find(names, plan.measure) == names.end()) {
         throw InputError(fmt::format("there is no measure \"{}\"{}; there are {}", plan.measure,
                                      experiment::suggestion(plan.measure, names),
@@ -124,7 +124,8 @@ std::vector<ContrastPair> pair_with_baselines(const std::vector<ArmNumbers>& all
         if (baseline == nullptr) {
             left_out.push_back(
                 fmt::format("{}: there is no arm to hold it against", numbers.arm->name));
-        } else if (refers_to_best(plan.measure) && baseline->best.value != numbers.best.value) {
+        } else if (experiment::refers_to_best(plan.measure) &&
+                   baseline->best.value != numbers.best.value) {
             left_out.push_back(fmt::format(
                 "{}: its {} refers to the best swarm fitness over {}, that of {} to the best over "
                 "{}: they cannot be compared",

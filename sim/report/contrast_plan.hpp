@@ -18,7 +18,7 @@ struct ContrastPlan {
     std::vector<std::string> baseline = {"source=gene-clock"};
     /// Names of arms: where there are any, every arm is held against the one of its family instead.
     std::vector<std::string> against = {};
-    std::string measure = "f_c";  ///< an id of `measures`
+    std::string measure = "f_c";  ///< an id of experiment::measures
     double margin_share = 0.05;  ///< differences below this share of the baseline's median are none
     double level = 0.05;
     /// Keys of settings that are conditions: arms which differ from their baselines in these and

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string_view>
 
-#include "sim/report/measures.hpp"
+#include "sim/experiment/study/measures.hpp"
 #include "sim/settings/choice_names.hpp"
 #include "sim/settings/embedded_files.hpp"
 
@@ -59,7 +59,7 @@ std::vector<PublishedRuns> read_runs(const Document& document, TableReader& read
         runs.task = required_choice<sim::Task>(entry, "task");
         runs.source = required_choice<sim::Source>(entry, "source");
         if (with_parameters) runs.parameters = entry.required_text("parameters");
-        for (const Measure& measure : measures) {
+        for (const experiment::Measure& measure : experiment::measures) {
             const std::string id(measure.id);
             if (table->contains(id))
                 runs.ranges[id] = read_range(document, entry.array(id), key + "." + id);

@@ -2,19 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "sim/experiment/study/measures.hpp"
 #include "sim/report/chronology_shares.hpp"
+#include "sim/report/compared_measures.hpp"
 #include "sim/report/comparison.hpp"
 #include "sim/report/group_data.hpp"
-#include "sim/report/measures.hpp"
 #include "sim/report/published.hpp"
 #include "sim/report/verdicts.hpp"
 #include "sim/settings/choice_names.hpp"
@@ -38,17 +41,6 @@ constexpr std::array<std::pair<const char*, double sim::Sample::*>, 3> curves = 
     {"swarm_fitness", &sim::Sample::swarm_fitness},
     {"species", &sim::Sample::species},
     {"controller_size", &sim::Sample::controller_size},
-}};
-
-constexpr std::array<std::pair<const char*, std::uint64_t sim::RunCounters::*>, 8> counters = {{
-    {"births", &sim::RunCounters::births},
-    {"matings", &sim::RunCounters::matings},
-    {"mutations", &sim::RunCounters::mutations},
-    {"genes_created", &sim::RunCounters::genes_created},
-    {"messages_sent", &sim::RunCounters::messages_sent},
-    {"messages_received", &sim::RunCounters::messages_received},
-    {"genomes_accepted", &sim::RunCounters::genomes_accepted},
-    {"collisions", &sim::RunCounters::collisions},
 }};
 
 template <typename Value>
@@ -133,6 +125,20 @@ Json cost_json(double cpu_seconds, double robot_steps) {
             {"robot_steps_per_cpu_second", rate}};
 }
 
+Json median_counters_json(const ArmNumbers& numbers) {
+    std::map<std::string_view, std::vector<double>> values;
+    for (const Run* run : numbers.runs) {
+        sim::for_each_counter(run->result.counters, [&](const char* name, std::uint64_t value) {
+            values[name].push_back(static_cast<double>(value));
+        });
+    }
+    Json json;
+    sim::for_each_counter(sim::RunCounters{}, [&](const char* name, std::uint64_t) {
+        json[name] = statistics::median(values.at(name));
+    });
+    return json;
+}
+
 Json arm_json(const ArmNumbers& numbers) {
     Json json = {{"name", numbers.arm->name},
                  {"source", name_of(numbers.arm->settings.source)},
@@ -147,12 +153,7 @@ Json arm_json(const ArmNumbers& numbers) {
     }
     json["seeds"] = std::move(seeds);
     json["cost"] = cost_json(cpu_seconds, robot_steps);
-    for (const auto& [name, counter] : counters) {
-        std::vector<double> values;
-        for (const Run* run : numbers.runs)
-            values.push_back(static_cast<double>(run->result.counters.*counter));
-        json["median_counters"][name] = statistics::median(values);
-    }
+    json["median_counters"] = median_counters_json(numbers);
     const std::vector<sim::Sample>& samples = numbers.runs.front()->result.samples;
     json["cycles"] = Json::array();
     for (const sim::Sample& sample : samples) json["cycles"].push_back(sample.cycle);
@@ -160,7 +161,7 @@ Json arm_json(const ArmNumbers& numbers) {
     // The same on every robot of every run: the task's inputs and outputs, fully connected.
     json["initial_controller_size"] =
         samples.front().controller_size - samples.front().added_elements;
-    for (const Measure& measure : measures) {
+    for (const experiment::Measure& measure : experiment::measures) {
         const auto found = numbers.values.find(measure.id);
         json["measures"][std::string(measure.id)] =
             found == numbers.values.end() ? Json(nullptr) : summary_json(found->second);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "sim/report/measures.hpp"
+#include "sim/report/compared_measures.hpp"
 #include "sim/statistics/mann_whitney.hpp"
 #include "sim/statistics/quantiles.hpp"
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sim/experiment/study/compared_runs.hpp"
+#include "sim/experiment/study/measures.hpp"
 #include "sim/experiment/study/summary.hpp"
 #include "sim/settings/choice_names.hpp"
 
@@ -38,17 +39,14 @@ constexpr std::string_view identity_header = "study,arm,task,source,profile,para
 void write_run(const StoredStudy& study, const StoredArm& arm, const RunRecord& run,
                const BestSwarmFitness& best, std::ostream& out) {
     const RunSummary summary = summarise(run.result.samples, arm.settings.measures, best);
-    const sim::RunCounters& counters = run.result.counters;
-    const auto& at_10000 = summary.swarm_fitness_at_10000;
-    fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{},", identity(study, arm, run),
-               summary.measures.f_c, summary.measures.f_b, summary.measures.t_f,
-               summary.measures.f_a, best.value, csv_field(best.over), summary.final_swarm_fitness,
-               at_10000 ? fmt::format("{}", *at_10000) : "", summary.species,
-               summary.added_elements, summary.controller_size);
-    fmt::print(out, "{},{},{},{},{},{},{},{},{},", counters.births, counters.matings,
-               counters.mutations, counters.genes_created, counters.messages_sent,
-               counters.messages_received, counters.genomes_accepted, counters.collisions,
-               counters.reboots);
+    fmt::print(out, "{},", identity(study, arm, run));
+    for (const Measure& measure : measures) {
+        const auto value = measure.of(summary);
+        fmt::print(out, "{},", value ? fmt::format("{}", *value) : "");
+    }
+    fmt::print(out, "{},{},", best.value, csv_field(best.over));
+    sim::for_each_counter(run.result.counters,
+                          [&](const char*, const auto& value) { fmt::print(out, "{},", value); });
     sim::for_each_measure(run.result.chronology,
                           [&](const char*, const auto& value) { fmt::print(out, "{},", value); });
     fmt::print(out, "{:016x},{},{},{},{},{},{}\n", run.result.trajectory_hash,
@@ -67,14 +65,12 @@ std::string csv_field(const std::string& text) {
 
 void write_runs_csv(const Store& store, const std::vector<StoredStudy>& studies,
                     std::ostream& out) {
-    fmt::print(out,
-               "{},f_c,f_b,t_f,f_a,best_swarm_fitness,best_over,final_swarm_fitness,swarm_fitness_"
-               "at_10000,species,"
-               "added_elements,controller_size,births,matings,mutations,genes_created,"
-               "messages_sent,messages_received,genomes_accepted,collisions,reboots,",
-               identity_header);
-    sim::for_each_measure(sim::ChronologyMeasures{},
-                          [&](const char* name, const auto&) { fmt::print(out, "{},", name); });
+    const auto name_column = [&](const char* name, const auto&) { fmt::print(out, "{},", name); };
+    fmt::print(out, "{},", identity_header);
+    for (const Measure& measure : measures) fmt::print(out, "{},", measure.id);
+    fmt::print(out, "best_swarm_fitness,best_over,");
+    sim::for_each_counter(sim::RunCounters{}, name_column);
+    sim::for_each_measure(sim::ChronologyMeasures{}, name_column);
     fmt::print(out,
                "trajectory_hash,robot_steps,cpu_seconds,wall_seconds,finished_at,"
                "program_version,settings_hash\n");
@@ -92,16 +88,20 @@ void write_runs_csv(const Store& store, const std::vector<StoredStudy>& studies,
 
 void write_samples_csv(const Store& store, const std::vector<StoredStudy>& studies,
                        std::ostream& out) {
-    fmt::print(out, "{},cycle,swarm_fitness,species,added_elements,controller_size\n",
-               identity_header);
+    fmt::print(out, "{}", identity_header);
+    sim::for_each_value(sim::Sample{},
+                        [&](const char* name, const auto&) { fmt::print(out, ",{}", name); });
+    fmt::print(out, "\n");
     for (const StoredStudy& study : studies) {
         for (const StoredArm& arm : study.arms) {
             for (const RunRecord& run : store.runs(study, arm)) {
                 const std::string start = identity(study, arm, run);
                 for (const sim::Sample& sample : run.result.samples) {
-                    fmt::print(out, "{},{},{},{},{},{}\n", start, sample.cycle,
-                               sample.swarm_fitness, sample.species, sample.added_elements,
-                               sample.controller_size);
+                    fmt::print(out, "{}", start);
+                    sim::for_each_value(sample, [&](const char*, const auto& value) {
+                        fmt::print(out, ",{}", value);
+                    });
+                    fmt::print(out, "\n");
                 }
             }
         }

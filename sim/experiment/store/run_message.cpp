@@ -23,25 +23,15 @@ constexpr std::uint64_t format_version = 1;
 template <typename T, typename Record>
 concept either = std::same_as<std::remove_const_t<T>, Record>;
 
-// The fields of each record. A structured binding names all of them, so that a field that a record
-// gains does not compile until it is sent.
+// The fields of records without a visitor. A structured binding names all of them, so that a field
+// that a record gains does not compile until it is sent.
 auto fields(either<InnovationNumber> auto& record) {
     auto& [counter, robot] = record;
     return std::tie(counter, robot);
 }
-auto fields(either<sim::Sample> auto& record) {
-    auto& [cycle, swarm_fitness, species, added_elements, controller_size] = record;
-    return std::tie(cycle, swarm_fitness, species, added_elements, controller_size);
-}
 auto fields(either<sim::GeneCreation> auto& record) {
     auto& [mark, robot, cycle] = record;
     return std::tie(mark, robot, cycle);
-}
-auto fields(either<sim::RunCounters> auto& record) {
-    auto& [births, matings, mutations, genes_created, sent, received, accepted, collisions,
-           reboots] = record;
-    return std::tie(births, matings, mutations, genes_created, sent, received, accepted, collisions,
-                    reboots);
 }
 auto fields(either<sim::RunResult> auto& record) {
     auto& [samples, counters, chronology, creations, trajectory_hash, robot_steps, cpu_seconds] =
@@ -54,6 +44,20 @@ auto fields(either<RunMessage> auto& record) {
     return std::tie(settings_hash, seed, result, wall_seconds);
 }
 
+// Records that have a visitor of their own.
+void for_each_field(either<sim::Sample> auto& record, auto visit) {
+    sim::for_each_value(record, visit);
+}
+void for_each_field(either<sim::RunCounters> auto& record, auto visit) {
+    sim::for_each_counter(record, visit);
+}
+void for_each_field(either<sim::ChronologyMeasures> auto& record, auto visit) {
+    sim::for_each_measure(record, visit);
+}
+template <typename T>
+concept visited =
+    either<T, sim::Sample> || either<T, sim::RunCounters> || either<T, sim::ChronologyMeasures>;
+
 /// Numbers and texts as they are, records and vectors as arrays.
 template <typename T>
 json to_value(const T& value) {
@@ -61,10 +65,9 @@ json to_value(const T& value) {
         return value;
     } else if constexpr (std::is_enum_v<T>) {
         return static_cast<std::underlying_type_t<T>>(value);
-    } else if constexpr (std::same_as<T, sim::ChronologyMeasures>) {
+    } else if constexpr (visited<T>) {
         json array = json::array();
-        for_each_measure(value,
-                         [&](const char*, const auto& measure) { array.push_back(measure); });
+        for_each_field(value, [&](const char*, const auto& field) { array.push_back(field); });
         return array;
     } else if constexpr (requires { value.begin(); }) {
         json array = json::array();
@@ -114,10 +117,9 @@ void from_value(const json& value, T& out) {
     } else if constexpr (std::same_as<T, std::string>) {
         require(value.is_string());
         out = value.get<std::string>();
-    } else if constexpr (std::same_as<T, sim::ChronologyMeasures>) {
+    } else if constexpr (visited<T>) {
         Elements elements(value);
-        for_each_measure(out,
-                         [&](const char*, auto& measure) { from_value(elements.next(), measure); });
+        for_each_field(out, [&](const char*, auto& field) { from_value(elements.next(), field); });
         elements.end();
     } else if constexpr (requires { out.push_back({}); }) {
         require(value.is_array());

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <type_traits>
+#include <utility>
 
 #include "sim/experiment/store/store_file.hpp"
 #include "sim/settings/input_error.hpp"
@@ -40,29 +40,90 @@ std::uint64_t unsigned_column(SQLite::Statement& row, const char* name) {
     return static_cast<std::uint64_t>(row.getColumn(name).getInt64());
 }
 
-void insert_samples(SQLite::Database& database, std::int64_t run,
-                    const std::vector<sim::Sample>& samples) {
-    SQLite::Statement insert(database, "INSERT INTO sample VALUES (?, ?, ?, ?, ?, ?)");
-    for (const sim::Sample& sample : samples) {
-        SQLite::bind(insert, run, sample.cycle, sample.swarm_fitness, sample.species,
-                     sample.added_elements, sample.controller_size);
+// Binding and reading of a number of a record.
+void bind_value(SQLite::Statement& statement, int position, double value) {
+    statement.bind(position, value);
+}
+void bind_value(SQLite::Statement& statement, int position, std::int64_t value) {
+    statement.bind(position, value);
+}
+void bind_value(SQLite::Statement& statement, int position, std::uint64_t value) {
+    statement.bind(position, as_integer(value));
+}
+void read_value(const SQLite::Column& column, double& value) {
+    value = column.getDouble();
+}
+void read_value(const SQLite::Column& column, std::int64_t& value) {
+    value = column.getInt64();
+}
+void read_value(const SQLite::Column& column, std::uint64_t& value) {
+    value = static_cast<std::uint64_t>(column.getInt64());
+}
+
+/// What reads a field from the column of its name.
+auto reading(SQLite::Statement& row) {
+    return [&row](const char* name, auto& value) { read_value(row.getColumn(name), value); };
+}
+
+/// The columns that a visitor of fields names, each after a comma, and a place for each value.
+template <typename ForEach>
+std::pair<std::string, std::string> columns_of(ForEach for_each) {
+    std::string columns;
+    std::string places;
+    for_each([&](const char* name, const auto&) {
+        columns += fmt::format(", {}", name);
+        places += ", ?";
+    });
+    return {columns, places};
+}
+
+/// Inserts the fields of records into a table whose other column is the run.
+template <typename Records, typename ForEach>
+void insert_records(SQLite::Database& database, const char* table, std::int64_t run,
+                    const Records& records, ForEach for_each) {
+    const auto [columns, places] =
+        columns_of([&](auto visit) { for_each(typename Records::value_type{}, visit); });
+    SQLite::Statement insert(
+        database, fmt::format("INSERT INTO {} (run{}) VALUES (?{})", table, columns, places));
+    for (const auto& record : records) {
+        int position = 1;
+        insert.bind(position, run);
+        for_each(record,
+                 [&](const char*, const auto& value) { bind_value(insert, ++position, value); });
         insert.exec();
         insert.reset();
     }
 }
 
+void insert_samples(SQLite::Database& database, std::int64_t run,
+                    const std::vector<sim::Sample>& samples) {
+    insert_records(database, "sample", run, samples, [](const sim::Sample& sample, auto visit) {
+        sim::for_each_value(sample, visit);
+    });
+}
+
 std::vector<sim::Sample> read_samples(SQLite::Database& database, std::int64_t run) {
     std::vector<sim::Sample> samples;
-    SQLite::Statement rows(database,
-                           "SELECT cycle, swarm_fitness, species, added_elements, controller_size "
-                           "FROM sample WHERE run = ? ORDER BY cycle");
+    SQLite::Statement rows(database, "SELECT * FROM sample WHERE run = ? ORDER BY cycle");
     rows.bind(1, run);
-    while (rows.executeStep()) {
-        samples.push_back({rows.getColumn(0).getInt64(), rows.getColumn(1).getDouble(),
-                           rows.getColumn(2).getDouble(), rows.getColumn(3).getDouble(),
-                           rows.getColumn(4).getDouble()});
-    }
+    while (rows.executeStep()) sim::for_each_value(samples.emplace_back(), reading(rows));
     return samples;
+}
+
+void insert_chronology(SQLite::Database& database, std::int64_t run,
+                       const sim::ChronologyMeasures& measures) {
+    insert_records(database, "chronology", run, std::vector{measures},
+                   [](const sim::ChronologyMeasures& record, auto visit) {
+                       sim::for_each_measure(record, visit);
+                   });
+}
+
+sim::ChronologyMeasures read_chronology(SQLite::Database& database, std::int64_t run) {
+    SQLite::Statement row(database, "SELECT * FROM chronology WHERE run = ?");
+    row.bind(1, run);
+    sim::ChronologyMeasures measures;
+    if (row.executeStep()) sim::for_each_measure(measures, reading(row));
+    return measures;
 }
 
 void insert_creations(SQLite::Database& database, std::int64_t run,
@@ -93,61 +154,12 @@ std::vector<sim::GeneCreation> read_creations(SQLite::Database& database, std::i
     return creations;
 }
 
-void insert_chronology(SQLite::Database& database, std::int64_t run,
-                       const sim::ChronologyMeasures& measures) {
-    std::string columns = "run";
-    std::string values = "?";
-    sim::for_each_measure(measures, [&](const char* name, const auto&) {
-        columns += fmt::format(", {}", name);
-        values += ", ?";
-    });
-    SQLite::Statement insert(
-        database, fmt::format("INSERT INTO chronology ({}) VALUES ({})", columns, values));
-    int position = 1;
-    insert.bind(position, run);
-    sim::for_each_measure(measures, [&](const char*, const auto& value) {
-        if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>) {
-            insert.bind(++position, value);
-        } else {
-            insert.bind(++position, as_integer(value));
-        }
-    });
-    insert.exec();
-}
-
-sim::ChronologyMeasures read_chronology(SQLite::Database& database, std::int64_t run) {
-    SQLite::Statement row(database, "SELECT * FROM chronology WHERE run = ?");
-    row.bind(1, run);
-    sim::ChronologyMeasures measures;
-    if (!row.executeStep()) return measures;
-    sim::for_each_measure(measures, [&](const char* name, auto& value) {
-        if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>) {
-            value = row.getColumn(name).getDouble();
-        } else {
-            value = unsigned_column(row, name);
-        }
-    });
-    return measures;
-}
-
-sim::RunCounters read_counters(SQLite::Statement& row) {
-    return {.births = unsigned_column(row, "births"),
-            .matings = unsigned_column(row, "matings"),
-            .mutations = unsigned_column(row, "mutations"),
-            .genes_created = unsigned_column(row, "genes_created"),
-            .messages_sent = unsigned_column(row, "messages_sent"),
-            .messages_received = unsigned_column(row, "messages_received"),
-            .genomes_accepted = unsigned_column(row, "genomes_accepted"),
-            .collisions = unsigned_column(row, "collisions"),
-            .reboots = unsigned_column(row, "reboots")};
-}
-
 /// The run of a row of the table run.
 RunRecord read_run(SQLite::Database& database, SQLite::Statement& row) {
     RunRecord record;
     record.settings_hash = row.getColumn("settings_hash").getString();
     record.seed = unsigned_column(row, "seed");
-    record.result.counters = read_counters(row);
+    sim::for_each_counter(record.result.counters, reading(row));
     record.result.trajectory_hash = parse_hexadecimal(row.getColumn("trajectory_hash").getString());
     record.result.robot_steps = unsigned_column(row, "robot_steps");
     record.result.cpu_seconds = row.getColumn("cpu_seconds").getDouble();
@@ -269,20 +281,23 @@ void Store::put_run(const RunRecord& record) {
 
 void Store::insert_run(const RunRecord& record) {
     const sim::RunResult& result = record.result;
-    const sim::RunCounters& counters = result.counters;
-    execute(
+    const auto [columns, places] =
+        columns_of([&](auto visit) { sim::for_each_counter(result.counters, visit); });
+    SQLite::Statement insert(
         *database_,
-        "INSERT INTO run (settings_hash, seed, births, matings, mutations, genes_created, "
-        "messages_sent, messages_received, genomes_accepted, collisions, reboots, "
-        "trajectory_hash, robot_steps, cpu_seconds, wall_seconds, finished_at, program_version) "
-        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-        record.settings_hash, as_integer(record.seed), as_integer(counters.births),
-        as_integer(counters.matings), as_integer(counters.mutations),
-        as_integer(counters.genes_created), as_integer(counters.messages_sent),
-        as_integer(counters.messages_received), as_integer(counters.genomes_accepted),
-        as_integer(counters.collisions), as_integer(counters.reboots),
-        hexadecimal(result.trajectory_hash), as_integer(result.robot_steps), result.cpu_seconds,
-        record.wall_seconds, record.finished_at, record.program_version);
+        fmt::format("INSERT INTO run (settings_hash, seed, trajectory_hash, robot_steps, "
+                    "cpu_seconds, wall_seconds, finished_at, program_version{}) "
+                    "VALUES (?, ?, ?, ?, ?, ?, ?, ?{})",
+                    columns, places));
+    SQLite::bind(insert, record.settings_hash, as_integer(record.seed),
+                 hexadecimal(result.trajectory_hash), as_integer(result.robot_steps),
+                 result.cpu_seconds, record.wall_seconds, record.finished_at,
+                 record.program_version);
+    int position = 8;
+    sim::for_each_counter(result.counters, [&](const char*, std::uint64_t value) {
+        bind_value(insert, ++position, value);
+    });
+    insert.exec();
     const std::int64_t run = database_->getLastInsertRowid();
     insert_samples(*database_, run, result.samples);
     insert_chronology(*database_, run, result.chronology);

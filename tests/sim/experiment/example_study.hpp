@@ -42,9 +42,10 @@ inline experiment::RunRecord example_run(const experiment::Arm& arm, std::uint64
         const double value = 0.1 * static_cast<double>(seed) + i;
         record.result.samples.push_back({100 * i, value, value + 1, value + 2, value + 3});
     }
-    record.result.counters = {1, 2, 3, 4, 5, 6, 7, 8, 9};
-    record.result.counters.births = seed;
     // Each field its own value, so that none can pass for another.
+    sim::for_each_counter(
+        record.result.counters,
+        [next = seed](const char*, std::uint64_t& value) mutable { value = next++; });
     sim::for_each_measure(record.result.chronology,
                           [next = seed](const char*, auto& value) mutable {
                               value = static_cast<std::remove_reference_t<decltype(value)>>(++next);

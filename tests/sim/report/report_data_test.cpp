@@ -42,6 +42,9 @@ TEST(ReportData, CurvesAreQuartilesOverTheRuns) {
     EXPECT_EQ(curve["upper_quartile"][sample], statistics::quantile(values, 0.75));
     EXPECT_EQ(arm["initial_controller_size"], 32.0);
     EXPECT_EQ(arm["median_counters"]["births"], 1003.5);  // 1000 + seed, seeds 1 to 6
+    sim::for_each_counter(sim::RunCounters{}, [&](const char* name, std::uint64_t) {
+        EXPECT_TRUE(arm["median_counters"].contains(name)) << name;
+    });
 }
 
 TEST(ReportData, ChangesAgainstTheProfileAreListed) {

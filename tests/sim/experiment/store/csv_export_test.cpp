@@ -78,6 +78,23 @@ TEST_F(CsvTest, HasALineForEachRun) {
     EXPECT_EQ(rows[1].at("swarm_fitness_at_10000"), "");  // the runs are too short
 }
 
+TEST_F(CsvTest, HasEveryCounterMeasureAndValue) {
+    write_runs_csv(store, store.studies(), out);
+    const auto rows = parse(out.str());
+    const sim::RunResult run = example_run(study.arms[0], 3).result;
+    const auto expect_column = [&](const char* name, const auto& value) {
+        EXPECT_EQ(std::stod(rows[0].at(name)), static_cast<double>(value)) << name;
+    };
+    sim::for_each_counter(run.counters, expect_column);
+    sim::for_each_measure(run.chronology, expect_column);
+    std::ostringstream samples;
+    write_samples_csv(store, store.studies(), samples);
+    const auto lines = parse(samples.str());
+    sim::for_each_value(run.samples[1], [&](const char* name, const auto& value) {
+        EXPECT_EQ(std::stod(lines[1].at(name)), static_cast<double>(value)) << name;
+    });
+}
+
 TEST_F(CsvTest, MeasuresReferToTheBestOfAllComparedRuns) {
     write_runs_csv(store, store.studies(), out);
     const auto rows = parse(out.str());

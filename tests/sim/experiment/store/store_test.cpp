@@ -12,6 +12,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <type_traits>
+#include <vector>
 
 #include "sim/settings/settings_io.hpp"
 #include "tests/sim/experiment/example_study.hpp"
@@ -87,21 +89,17 @@ TEST_F(StoreTest, KeepsStudiesAndRuns) {
     EXPECT_EQ(run.result.trajectory_hash, expected.result.trajectory_hash);
     EXPECT_EQ(run.result.robot_steps, expected.result.robot_steps);
     EXPECT_EQ(run.result.cpu_seconds, expected.result.cpu_seconds);
-    const auto counters = [](const sim::RunCounters& c) {
-        return std::array{c.births,           c.matings,       c.mutations,
-                          c.genes_created,    c.messages_sent, c.messages_received,
-                          c.genomes_accepted, c.collisions,    c.reboots};
-    };
-    EXPECT_EQ(counters(run.result.counters), counters(expected.result.counters));
-    const auto chronology = [](const sim::RunResult& result) {
+    const auto counters = [](const sim::RunResult& result) {
         std::map<std::string, double> values;
-        sim::for_each_measure(result.chronology, [&](const char* name, const auto& value) {
+        const auto add = [&](const char* name, const auto& value) {
             values[name] = static_cast<double>(value);
-        });
+        };
+        sim::for_each_counter(result.counters, add);
+        sim::for_each_measure(result.chronology, add);
         return values;
     };
-    EXPECT_EQ(chronology(run.result).size(), 25U);
-    EXPECT_EQ(chronology(run.result), chronology(expected.result));
+    EXPECT_EQ(counters(run.result).size(), sim::run_counters + sim::chronology_measures);
+    EXPECT_EQ(counters(run.result), counters(expected.result));
     const auto creations = [](const sim::RunResult& result) {
         std::vector<std::tuple<std::uint64_t, RobotId, RobotId, double>> all;
         for (const sim::GeneCreation& c : result.creations) {
@@ -113,12 +111,52 @@ TEST_F(StoreTest, KeepsStudiesAndRuns) {
     EXPECT_EQ(creations(run.result), creations(expected.result));
     ASSERT_EQ(run.result.samples.size(), expected.result.samples.size());
     for (std::size_t i = 0; i < run.result.samples.size(); ++i) {
-        const auto values = [](const sim::Sample& s) {
-            return std::tuple(s.cycle, s.swarm_fitness, s.species, s.added_elements,
-                              s.controller_size);
+        const auto values = [](const sim::Sample& sample) {
+            std::vector<double> all;
+            sim::for_each_value(sample, [&](const char*, const auto& value) {
+                all.push_back(static_cast<double>(value));
+            });
+            return all;
         };
         EXPECT_EQ(values(run.result.samples[i]), values(expected.result.samples[i]));
     }
+}
+
+/// The columns of a table, each as "name TYPE".
+std::vector<std::string> columns_of(const std::filesystem::path& file, const std::string& table) {
+    const SQLite::Database database(file.string());
+    SQLite::Statement rows(database, "SELECT name, type FROM pragma_table_info(?)");
+    rows.bind(1, table);
+    std::vector<std::string> columns;
+    while (rows.executeStep())
+        columns.push_back(rows.getColumn(0).getString() + " " + rows.getColumn(1).getString());
+    return columns;
+}
+
+/// What a visitor of fields calls for: its fields, by name and type.
+template <typename ForEach>
+std::vector<std::string> fields_of(std::vector<std::string> columns, ForEach for_each) {
+    for_each([&](const char* name, auto value) {
+        columns.push_back(
+            name + std::string(std::is_floating_point_v<decltype(value)> ? " REAL" : " INTEGER"));
+    });
+    return columns;
+}
+
+TEST_F(StoreTest, TablesHaveAColumnForEachFieldAndNoOther) {
+    { const Store store = Store::open_for_writing(file); }
+    auto run = fields_of({"id INTEGER", "settings_hash TEXT", "seed INTEGER"},
+                         [](auto visit) { sim::for_each_counter(sim::RunCounters{}, visit); });
+    for (const char* column : {"trajectory_hash TEXT", "robot_steps INTEGER", "cpu_seconds REAL",
+                               "wall_seconds REAL", "finished_at TEXT", "program_version TEXT"})
+        run.emplace_back(column);
+    EXPECT_EQ(columns_of(file, "run"), run);
+    EXPECT_EQ(columns_of(file, "sample"), fields_of({"run INTEGER"}, [](auto visit) {
+                  sim::for_each_value(sim::Sample{}, visit);
+              }));
+    EXPECT_EQ(columns_of(file, "chronology"), fields_of({"run INTEGER"}, [](auto visit) {
+                  sim::for_each_measure(sim::ChronologyMeasures{}, visit);
+              }));
 }
 
 TEST_F(StoreTest, LeavesOutRunsWithOtherSeeds) {

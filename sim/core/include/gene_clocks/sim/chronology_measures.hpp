@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace gene_clocks::sim {
@@ -54,9 +55,10 @@ struct ChronologyMeasures {
     std::uint64_t stamp_bytes{};  ///< bytes of the stamps among them: what the clock costs
 };
 
-/// Calls `visit(name, value)` for each field, in order; `measures` may be const.
+/// Calls `visit(name, value)` for each field, in order; `measures` may be const. Every list of what
+/// chronology measures comes from here.
 template <class Measures, class Visit>
-void for_each_measure(Measures&& measures, Visit visit) {
+constexpr void for_each_measure(Measures&& measures, Visit visit) {
     visit("genes", measures.genes);
     visit("pairs", measures.pairs);
     visit("caused_pairs", measures.caused_pairs);
@@ -83,5 +85,14 @@ void for_each_measure(Measures&& measures, Visit visit) {
     visit("bytes_sent", measures.bytes_sent);
     visit("stamp_bytes", measures.stamp_bytes);
 }
+
+/// How many measures for_each_measure visits: all fields, each of which takes eight bytes.
+inline constexpr std::size_t chronology_measures = [] {
+    std::size_t count = 0;
+    for_each_measure(ChronologyMeasures{}, [&](const char*, const auto&) { ++count; });
+    return count;
+}();
+static_assert(sizeof(ChronologyMeasures) == chronology_measures * 8,
+              "for_each_measure leaves a field out");
 
 }  // namespace gene_clocks::sim

@@ -5,6 +5,8 @@
 #include <gene_clocks/innovation_number.hpp>
 #include <gene_clocks/sim/arena.hpp>
 #include <gene_clocks/sim/chronology_measures.hpp>
+#include <gene_clocks/sim/run_counters.hpp>
+#include <gene_clocks/sim/sample.hpp>
 #include <gene_clocks/sim/settings.hpp>
 #include <optional>
 #include <string>
@@ -13,30 +15,6 @@
 namespace gene_clocks::sim {
 
 class RunObserver;
-
-/// What the paper measures every 100 cycles (section 4.1); means over all robots that are switched
-/// on (see JoinSettings).
-struct Sample {
-    std::int64_t cycle{};
-    double swarm_fitness{};  ///< F_s
-    double species{};        ///< species in the local population
-    double
-        added_elements{};  ///< neurons and connections beyond the initial ones, disabled included
-    double controller_size{};  ///< neurons and connections of the active genome
-};
-
-/// Counts of what happened in a run.
-struct RunCounters {
-    std::uint64_t births{};
-    std::uint64_t matings{};  ///< births with two different parents
-    std::uint64_t mutations{};
-    std::uint64_t genes_created{};
-    std::uint64_t messages_sent{};
-    std::uint64_t messages_received{};
-    std::uint64_t genomes_accepted{};
-    std::uint64_t collisions{};
-    std::uint64_t reboots{};
-};
 
 /// When a gene was created, for studies of chronology.
 struct GeneCreation {
