@@ -131,13 +131,6 @@ std::pair<const InnovationNumber*, const InnovationNumber*> merge(const Innovati
 
 }  // namespace
 
-DistanceMeasure::DistanceMeasure(const OdneatSettings& settings)
-    : c_excess(static_cast<float>(settings.c_excess)),
-      c_disjoint(static_cast<float>(settings.c_disjoint)),
-      c_weight(static_cast<float>(settings.c_weight)),
-      weight_difference(settings.weight_difference),
-      mismatch(settings.mismatch) {}
-
 float distance(const Genome& first, const Genome& second, const DistanceMeasure& measure,
                float limit) {
     if (measure.mismatch != Mismatch::excess_disjoint) {

@@ -129,41 +129,37 @@ WireLimits salted(WireLimits limits) {
 std::size_t payload_bytes(const Genome& genome) {
     const Topology& topology = *genome.topology;
     const auto& neurons = topology.neurons;
-    const auto& connections = topology.connection_marks;
-    // A writer without room counts what it is given.
-    gene_clocks_writer bytes{};
-    for (const std::uint64_t field :
-         {static_cast<std::uint64_t>(genome.id.robot), std::uint64_t{genome.id.birth},
-          std::uint64_t{neurons.size()}, std::uint64_t{connections.size()}}) {
-        gene_clocks_put_varint(&bytes, field);
-    }
-    InnovationNumber last{};
-    const auto add_mark = [&](InnovationNumber mark) {
-        ++bytes.size;  // the head
-        const std::uint64_t leap = mark.counter - last.counter;
-        if (leap >= gene_clocks_head_far)
-            gene_clocks_put_varint(&bytes, leap - gene_clocks_head_far);
-        if (mark.robot != last.robot)
-            gene_clocks_put_varint(&bytes, static_cast<std::uint32_t>(mark.robot));
-        last = mark;
+    gene_clocks_writer bytes{};  // without room: it counts what it is given
+    const gene_clocks_genome header{static_cast<std::uint32_t>(genome.id.robot), genome.id.birth,
+                                    static_cast<std::uint16_t>(neurons.size()),
+                                    static_cast<std::uint16_t>(genome.connections())};
+    gene_clocks_put_genome_header_unchecked(&bytes, &header);
+    gene_clocks_mark<std::uint64_t> last{};
+    const auto add = [&](const gene_clocks_gene& gene) {
+        gene_clocks_put_gene_unchecked(&bytes, last, &gene);
+        last = gene.mark;
+    };
+    // In whole genomes: with other sources than clocks, a neuron may come after its connection.
+    const auto place_of = [&](InnovationNumber mark) {
+        // Initial neurons usually have the mark index + 1.
+        const std::uint64_t guess = mark.counter - 1;
+        const bool is_initial = guess < neurons.size() && neurons[guess].mark == mark;
+        return static_cast<std::uint16_t>(is_initial ? guess : topology.find_neuron(mark).value());
     };
     std::size_t neuron = 0;
-    for (std::size_t i = 0; i < connections.size(); ++i) {
-        while (neuron < neurons.size() && !(connections[i] < neurons[neuron].mark)) {
-            add_mark(neurons[neuron++].mark);
+    for (std::size_t i = 0; i < genome.connections(); ++i) {
+        const InnovationNumber mark = topology.connection_marks[i];
+        while (neuron < neurons.size() && !(mark < neurons[neuron].mark)) {
+            add(wire_gene(neurons[neuron++]));
         }
-        add_mark(connections[i]);
-        const ConnectionEnds& ends = topology.connection_ends[i];
-        // In whole genomes: with other sources than clocks, a neuron may come after this gene.
-        for (const InnovationNumber end : {ends.source, ends.target}) {
-            // Initial neurons usually have the mark index + 1.
-            const std::uint64_t guess = end.counter - 1;
-            const bool is_initial = guess < neurons.size() && neurons[guess].mark == end;
-            gene_clocks_put_varint(&bytes, is_initial ? guess : topology.find_neuron(end).value());
-        }
-        bytes.size += sizeof(float);  // the weight
+        gene_clocks_gene gene{};
+        gene.mark = mark.kernel_mark();
+        gene.kind = gene_clocks_connection;
+        gene.ends = {place_of(topology.connection_ends[i].source),
+                     place_of(topology.connection_ends[i].target)};
+        add(gene);
     }
-    while (neuron < neurons.size()) add_mark(neurons[neuron++].mark);
+    while (neuron < neurons.size()) add(wire_gene(neurons[neuron++]));
     return bytes.size;
 }
 

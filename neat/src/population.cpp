@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cassert>
+#include <gene_clocks/neat/distance.hpp>
 #include <gene_clocks/neat/population.hpp>
 
 namespace gene_clocks::neat {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <gene_clocks/neat/distance.hpp>
 #include <gene_clocks/neat/tabu_list.hpp>
 
 namespace gene_clocks::neat {

@@ -81,7 +81,10 @@ TEST_F(MessageCodecTest, GenomesOfAnEvolvingSwarmComeBackAsTheyWere) {
         ASSERT_TRUE(received);
         EXPECT_TRUE(samples::same_genes(*received->message.genome, genome));
         EXPECT_EQ(samples::fault_of(*received->message.genome), "valid");
-        EXPECT_EQ(frame_of(received->message), frame_of(message_of(genome, clock.stamp())));
+        const auto frame = frame_of(message_of(genome, clock.stamp()));
+        EXPECT_EQ(frame_of(received->message), frame);
+        const std::size_t payload = payload_bytes(genome);
+        EXPECT_EQ(frame_bytes(received->sender, clock.stamp(), payload), frame.size());
     }
     EXPECT_GT(genome.connections(), 60u);
 }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <gene_clocks/neat/distance.hpp>
 #include <gene_clocks/neat/tabu_list.hpp>
 #include <utility>
 #include <vector>

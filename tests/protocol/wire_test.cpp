@@ -489,6 +489,22 @@ WireMessage draw_message(const WireLimits& limits) {
     return message;
 }
 
+GENE_CLOCKS_PROPERTY(WireProperty, TheSizeOfAFrameIsThatOfItsBytes, ()) {
+    const auto of_any_length = [] {
+        return *rc::gen::arbitrary<std::uint64_t>() >> *rc::gen::inRange(0, 64);
+    };
+    const std::vector<std::uint8_t> payload(*rc::gen::inRange<std::size_t>(0, 40'000));
+    const Frame frame{RobotId{static_cast<std::uint32_t>(of_any_length() | 1)},
+                      Stamp{of_any_length() | 1}, 1.0f, payload};
+    std::vector<std::uint8_t> buffer(payload.size() + frame_overhead_bytes);
+    const auto written = encode_frame(frame, buffer);
+    RC_ASSERT(static_cast<bool>(written));
+    RC_ASSERT(frame_bytes(frame.sender, frame.stamp, payload.size()) == written->size());
+    kernel::gene_clocks_writer counting{};
+    kernel::gene_clocks_put_varint(&counting, frame.stamp.value);
+    RC_ASSERT(varint_bytes(frame.stamp.value) == counting.size);
+}
+
 GENE_CLOCKS_PROPERTY(WireProperty, WhatIsWrittenIsRead, ()) {
     const WireLimits limits{.genesis_count = 30};
     const WireMessage message = draw_message(limits);

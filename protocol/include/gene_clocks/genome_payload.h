@@ -394,6 +394,15 @@ struct gene_clocks_genome_writer {
     struct gene_clocks_genome_checks checks;
 };
 
+/* Writes identity and counts, without a check. */
+GENE_CLOCKS_FUNCTION void gene_clocks_put_genome_header_unchecked(
+    struct gene_clocks_writer* bytes, const struct gene_clocks_genome* genome) {
+    gene_clocks_put_varint(bytes, genome->robot);
+    gene_clocks_put_varint(bytes, genome->birth);
+    gene_clocks_put_varint(bytes, genome->neurons);
+    gene_clocks_put_varint(bytes, genome->connections);
+}
+
 /* Begins to write a genome with `genome`'s identity and counts, to travel with `stamp`. `joined` as
  * for reading. With a capacity of 0, where `buffer` may be null, the size is found. */
 GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_begin_genome(
@@ -407,20 +416,15 @@ GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_begin_genome(
     }
     writer->bytes = bytes;
     writer->checks = gene_clocks_start_checks(genome, stamp, limits, joined);
-    gene_clocks_put_varint(&writer->bytes, genome.robot);
-    gene_clocks_put_varint(&writer->bytes, genome.birth);
-    gene_clocks_put_varint(&writer->bytes, genome.neurons);
-    gene_clocks_put_varint(&writer->bytes, genome.connections);
+    gene_clocks_put_genome_header_unchecked(&writer->bytes, &genome);
     return gene_clocks_fault_at(gene_clocks_wire_ok, 0);
 }
 
-/* Writes the next gene, in the order of marks. Where it may not come there, nothing changes. */
-GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_put_gene(
-    struct gene_clocks_genome_writer* writer, const struct gene_clocks_gene* gene) {
-    const GENE_CLOCKS_MARK last = writer->checks.last;
-    const enum gene_clocks_wire_error error = gene_clocks_add_gene(&writer->checks, gene);
-    if (error) return gene_clocks_fault_at(error, writer->bytes.size);
-
+/* Writes a gene that comes after one with the mark `last`, without a check: to find the size of
+ * what no reader would take, too. */
+GENE_CLOCKS_FUNCTION void gene_clocks_put_gene_unchecked(struct gene_clocks_writer* bytes,
+                                                         GENE_CLOCKS_MARK last,
+                                                         const struct gene_clocks_gene* gene) {
     const uint64_t leap = gene->mark.counter - last.counter;
     const bool is_far = leap >= gene_clocks_head_far;
     unsigned head = (is_far ? (unsigned)gene_clocks_head_far : (unsigned)leap) << 4;
@@ -432,7 +436,6 @@ GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_put_gene(
     } else {
         head |= (unsigned)gene->kind << 1;
     }
-    struct gene_clocks_writer* const bytes = &writer->bytes;
     gene_clocks_put_byte(bytes, (uint8_t)head);
     if (is_far) gene_clocks_put_varint(bytes, leap - gene_clocks_head_far);
     if (gene->mark.robot != last.robot) gene_clocks_put_varint(bytes, gene->mark.robot);
@@ -441,6 +444,15 @@ GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_put_gene(
         gene_clocks_put_varint(bytes, gene->ends.target);
         gene_clocks_put_word(bytes, GENE_CLOCKS_BITS_OF(gene->weight));
     }
+}
+
+/* Writes the next gene, in the order of marks. Where it may not come there, nothing changes. */
+GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_put_gene(
+    struct gene_clocks_genome_writer* writer, const struct gene_clocks_gene* gene) {
+    const GENE_CLOCKS_MARK last = writer->checks.last;
+    const enum gene_clocks_wire_error error = gene_clocks_add_gene(&writer->checks, gene);
+    if (error) return gene_clocks_fault_at(error, writer->bytes.size);
+    gene_clocks_put_gene_unchecked(&writer->bytes, last, gene);
     return gene_clocks_fault_at(gene_clocks_wire_ok, 0);
 }
 

@@ -145,6 +145,24 @@ GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_decode_frame(
     return fault;
 }
 
+/* Writes the fields before the payload. */
+GENE_CLOCKS_FUNCTION void gene_clocks_put_frame_header(struct gene_clocks_writer* writer,
+                                                       const struct gene_clocks_frame* frame) {
+    gene_clocks_put_byte(writer, gene_clocks_wire_version_1);
+    gene_clocks_put_varint(writer, frame->sender);
+    gene_clocks_put_varint(writer, frame->stamp);
+    gene_clocks_put_word(writer, GENE_CLOCKS_BITS_OF(frame->energy));
+    gene_clocks_put_varint(writer, frame->payload_size);
+}
+
+/* The bytes that a frame takes, also one that no receiver would take. Of its payload only the size
+ * counts. */
+GENE_CLOCKS_FUNCTION size_t gene_clocks_frame_bytes(const struct gene_clocks_frame* frame) {
+    struct gene_clocks_writer header = {NULL, 0, 0};
+    gene_clocks_put_frame_header(&header, frame);
+    return header.size + frame->payload_size + gene_clocks_checksum_bytes;
+}
+
 /* Writes a frame and its size. The payload may lie in the buffer already, at or behind its place.
  * Where the frame would be refused by its receivers, or does not fit, only `size` is set: to the
  * bytes needed where the error is gene_clocks_wire_no_room, else to 0. */
@@ -164,11 +182,7 @@ GENE_CLOCKS_FUNCTION struct gene_clocks_fault gene_clocks_encode_frame(
     /* The header first in a place of its own: nothing is written before all is known to fit. */
     uint8_t header[gene_clocks_frame_overhead_bytes] = {0};
     struct gene_clocks_writer writer = {header, sizeof header, 0};
-    gene_clocks_put_byte(&writer, gene_clocks_wire_version_1);
-    gene_clocks_put_varint(&writer, frame->sender);
-    gene_clocks_put_varint(&writer, frame->stamp);
-    gene_clocks_put_word(&writer, GENE_CLOCKS_BITS_OF(frame->energy));
-    gene_clocks_put_varint(&writer, frame->payload_size);
+    gene_clocks_put_frame_header(&writer, frame);
     const size_t header_size = writer.size;
     const size_t around = header_size + gene_clocks_checksum_bytes;
     if (limits->frame_bytes < around || limits->frame_bytes - around < frame->payload_size) {

@@ -3,6 +3,7 @@
 #include <gene_clocks/genome_payload.h>
 #include <gene_clocks/wire.h>
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <gene_clocks/innovation_number.hpp>
@@ -166,6 +167,18 @@ constexpr WireResult<std::span<const std::uint8_t>> encode_frame(const Frame& fr
                                                         buffer.data(), buffer.size(), &size);
     if (fault.error) return WireFault::from(fault);
     return std::span<const std::uint8_t>(buffer.first(size));
+}
+
+/// The bytes that a frame takes, also one that no receiver would take.
+constexpr std::size_t frame_bytes(RobotId sender, Stamp stamp, std::size_t payload_bytes) {
+    const kernel::gene_clocks_frame frame{stamp.value, static_cast<std::uint32_t>(sender), 0.0f,
+                                          nullptr, payload_bytes};
+    return kernel::gene_clocks_frame_bytes(&frame);
+}
+
+/// The bytes that a number takes in a frame, as a varint: seven bits in each.
+constexpr std::size_t varint_bytes(std::uint64_t value) {
+    return (static_cast<std::size_t>(std::bit_width(value | 1)) + 6) / 7;
 }
 
 /// The most bytes of a frame that are not payload.

@@ -1,21 +1,10 @@
 #pragma once
 
+#include <gene_clocks/neat/distance_measure.hpp>
 #include <gene_clocks/neat/genome.hpp>
-#include <gene_clocks/neat/settings.hpp>
 #include <limits>
 
 namespace gene_clocks::neat {
-
-/// The coefficients of a distance, ready for use.
-struct DistanceMeasure {
-    explicit DistanceMeasure(const OdneatSettings& settings);
-
-    float c_excess;
-    float c_disjoint;
-    float c_weight;
-    WeightDifference weight_difference;
-    Mismatch mismatch;
-};
 
 /// Genotypic distance: a term for the genes that only one genome has, and c3·W.
 ///

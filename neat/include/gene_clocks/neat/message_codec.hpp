@@ -25,7 +25,8 @@ struct ReceivedMessage {
 WireLimits wire_limits(const Topology& initial, const OdneatSettings& settings);
 
 /// The bytes of a genome's payload, whatever marked its genes: also where no codec would take it,
-/// since those of other sources than gene clocks may come before what they depend on.
+/// since those of other sources than gene clocks may come before what they depend on. Precondition:
+/// fewer than 65 536 genes of each kind, as the format counts them.
 std::size_t payload_bytes(const Genome& genome);
 
 /// Turns messages into frames of the wire format and back (docs/wire-format.md): the door between

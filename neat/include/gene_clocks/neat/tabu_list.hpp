@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstdint>
-#include <gene_clocks/neat/distance.hpp>
+#include <gene_clocks/neat/distance_measure.hpp>
 #include <gene_clocks/neat/genome.hpp>
 #include <memory>
 #include <vector>

@@ -1,6 +1,7 @@
 #include "sim/core/src/chronology/chronology.hpp"
 
 #include <algorithm>
+#include <gene_clocks/wire.hpp>
 #include <utility>
 
 namespace gene_clocks::sim {
@@ -9,17 +10,13 @@ Chronology::Chronology(std::size_t robots, std::int64_t delay_cycles,
                        std::shared_ptr<const neat::Topology> initial)
     : past_(robots, delay_cycles), origins_(std::move(initial)), log_(robots), senders_(robots) {}
 
-/// The fields of docs/wire-format.md.
 Chronology::Sender Chronology::measure_frame(std::uint32_t robot,
                                              std::shared_ptr<const neat::Genome> active) const {
-    constexpr std::size_t version = 1;
-    constexpr std::size_t energy = 4;
-    constexpr std::size_t checksum = 4;
     const std::size_t payload = origins_.of(*active->topology).bytes +
                                 varint_bytes(static_cast<std::uint64_t>(active->id.robot)) +
                                 varint_bytes(active->id.birth);
-    const std::size_t frame = version + varint_bytes(robot + std::uint64_t{1}) + energy +
-                              varint_bytes(payload) + payload + checksum;
+    // Robots are numbered from 1 on the wire. A stamp of 0 takes its bytes, too.
+    const std::size_t frame = frame_bytes(RobotId{robot + 1}, Stamp{0}, payload) - varint_bytes(0);
     return {std::move(active), frame};
 }
 

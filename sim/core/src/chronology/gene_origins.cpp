@@ -4,6 +4,7 @@
 #include <cassert>
 #include <gene_clocks/align.hpp>
 #include <gene_clocks/neat/message_codec.hpp>
+#include <gene_clocks/wire.hpp>
 #include <limits>
 #include <numeric>
 #include <utility>

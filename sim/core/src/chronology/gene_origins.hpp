@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <gene_clocks/neat/genome.hpp>
@@ -82,10 +81,5 @@ private:
     std::vector<Innovation> innovations_;
     std::vector<std::uint64_t> scratch_first_, scratch_second_;
 };
-
-/// The bytes of the smallest encoding of a number as a varint (docs/wire-format.md).
-constexpr std::size_t varint_bytes(std::uint64_t value) {
-    return (static_cast<std::size_t>(std::bit_width(value | 1)) + 6) / 7;
-}
 
 }  // namespace gene_clocks::sim
