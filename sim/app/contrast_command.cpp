@@ -7,6 +7,7 @@
 #include "sim/app/contrast_tables.hpp"
 #include "sim/app/output_file.hpp"
 #include "sim/report/contrast.hpp"
+#include "sim/settings/input_error.hpp"
 
 namespace gene_clocks::app {
 namespace {
@@ -14,25 +15,50 @@ namespace {
 struct Options {
     std::string store;
     std::vector<std::string> studies;
-    std::vector<std::string> baseline;
+    experiment::Baselines baselines;
     report::ContrastPlan plan;
     std::string csv;
     std::string paired_csv;
 };
 
-int run(Options options) {
-    if (!options.baseline.empty()) options.plan.baseline = options.baseline;
+/// What arms are compared with: what the command line says, else what the studies' tables
+/// [contrast] say, else gene clocks. Throws InputError where the studies contradict each other.
+experiment::ContrastTable contrast_table(const Options& options, const report::Input& input) {
+    const experiment::Baselines& own = options.baselines;
+    experiment::ContrastTable table;
+    if (own.baseline.empty() && own.against.empty()) {
+        if (input.contrary_studies) {
+            const auto& [one, other] = *input.contrary_studies;
+            throw experiment::InputError(
+                fmt::format("{}: the studies {} and {} say different things of what their arms are "
+                            "compared with; choose one by --study, or say it by --baseline or "
+                            "--against",
+                            options.store, one, other));
+        }
+        table = input.contrast.value_or(experiment::ContrastTable{});
+    } else {
+        table.arms = own;
+    }
+    if (own.over.empty()) return table;
+    table.arms.over = own.over;
+    if (table.paired) table.paired->over = own.over;
+    return table;
+}
+
+int run(const Options& options) {
     require_different({{"--csv", options.csv}, {"--paired-csv", options.paired_csv}});
     const report::Input input = report::read_input(options.store, options.studies);
-    const report::Contrasts contrasts = report::contrast(input, options.plan);
+    const experiment::ContrastTable table = contrast_table(options, input);
+    const report::ContrastPlan plan = report::with_baselines(options.plan, table.arms);
+    const report::ContrastPlan paired_plan =
+        report::with_baselines(options.plan, table.paired.value_or(table.arms));
+    const report::Contrasts contrasts = report::contrast(input, plan, paired_plan);
     const std::string& measure = options.plan.measure;
     std::optional<Output> csv;
     std::optional<Output> paired_csv;
     if (!options.csv.empty()) csv.emplace(options.csv);
     if (!options.paired_csv.empty()) paired_csv.emplace(options.paired_csv);
-    for (const std::string& what : contrasts.left_out) {
-        fmt::print(stderr, "{}; left out\n", what);
-    }
+    for (const std::string& what : contrasts.left_out) fmt::print(stderr, "{}\n", what);
     if (csv) write_csv(contrasts.arms, measure, csv->stream());
     if (paired_csv) write_csv(contrasts.paired, measure, paired_csv->stream());
     if (csv) csv->finish();
@@ -60,14 +86,15 @@ void add_contrast_command(CLI::App& app, int& status) {
     auto* baseline =
         command
             ->add_option(
-                "--baseline", options->baseline,
-                "An arm is held against the one whose settings are its own but for this; may "
-                "be repeated. Without it source=gene-clock")
+                "--baseline", options->baselines.baseline,
+                "An arm is compared with the one whose settings are its own but for this; may "
+                "be repeated. Without it, and without --against, what the study's table "
+                "[contrast] says, or else source=gene-clock")
             ->allow_extra_args(false)
             ->type_name("KEY=VALUE");
     command
-        ->add_option("--against", options->plan.against,
-                     "An arm by name: all others of its task and profile are held against it; may "
+        ->add_option("--against", options->baselines.against,
+                     "An arm by name: all others of its task and profile are compared with it; may "
                      "be repeated, once for each of these")
         ->allow_extra_args(false)
         ->type_name("ARM")
@@ -84,7 +111,7 @@ void add_contrast_command(CLI::App& app, int& status) {
         ->type_name("P")
         ->capture_default_str();
     command
-        ->add_option("--over", options->plan.over,
+        ->add_option("--over", options->baselines.over,
                      "A setting that is a condition: the paired tests put arms together that "
                      "differ from their baselines in it, and otherwise alike; may be repeated")
         ->allow_extra_args(false)

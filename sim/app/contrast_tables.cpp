@@ -127,7 +127,7 @@ void write_csv(const std::vector<PairedContrast>& rows, const std::string& measu
 
 void print_table(const std::vector<Contrast>& rows, const std::string& measure) {
     std::size_t width = 3;
-    std::vector<const report::ArmRuns*> baselines;  // in the order in which they are held against
+    std::vector<const report::ArmRuns*> baselines;  // in the order of the arms
     for (const Contrast& row : rows) {
         width = std::max(width, row.arm->name.size());
         if (std::ranges::find(baselines, row.baseline) == baselines.end())

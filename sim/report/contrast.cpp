@@ -1,9 +1,10 @@
 #include "sim/report/contrast.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/settings/input_error.hpp"
 #include "sim/statistics/bootstrap.hpp"
@@ -31,10 +32,10 @@ Contrast contrast_of(const ArmNumbers& arm, const ArmNumbers& baseline, const Co
     contrast.baseline_median = statistics::median(y);
     contrast.margin = plan.margin_share * std::fabs(contrast.baseline_median);
     if (!(contrast.margin > 0.0)) {
-        throw InputError(
-            fmt::format("arm \"{}\": its median of {} is 0, of which no share makes a "
-                        "margin",
-                        baseline.arm->name, plan.measure));
+        throw InputError(fmt::format(
+            "arm \"{}\": its median {} is 0, and a margin is a share of that; choose another "
+            "measure with --measure",
+            baseline.arm->name, plan.measure));
     }
     contrast.shift = statistics::shift_of_location(x, y);
     contrast.effect = statistics::vargha_delaney_a(x, y);
@@ -43,6 +44,15 @@ Contrast contrast_of(const ArmNumbers& arm, const ArmNumbers& baseline, const Co
     contrast.equivalence_p_value = statistics::equivalence_p_value(x, y, contrast.margin);
     contrast.power = statistics::power(x, y, contrast.margin, {.level = plan.level});
     return contrast;
+}
+
+InputError no_baseline(const Input& input, const ContrastPlan& plan,
+                       const std::vector<std::string>& left_out) {
+    std::string what = fmt::format("study \"{}\": no arm has a baseline", input.study);
+    if (!left_out.empty()) what += "; " + left_out.front();
+    what += plan.against.empty() ? "; give another --baseline, or name an arm with --against"
+                                 : "; name other arms with --against";
+    return InputError(what);
 }
 
 }  // namespace
@@ -61,23 +71,22 @@ std::vector<Contrast> contrast_pairs(std::span<const ContrastPair> pairs,
     return contrasts;
 }
 
-Contrasts contrast(const Input& input, const ContrastPlan& plan) {
+Contrasts contrast(const Input& input, const ContrastPlan& plan, const ContrastPlan& paired_plan) {
     check(plan);
+    check(paired_plan);
     const std::vector<ArmNumbers> all = arm_numbers(input);
     Contrasts contrasts;
     const std::vector<ContrastPair> pairs = pair_with_baselines(all, plan, contrasts.left_out);
-    if (pairs.empty()) {
-        std::string what =
-            fmt::format("study \"{}\": no arm has one to be held against", input.study);
-        if (plan.against.empty()) {
-            what += fmt::format(", which would differ from it in {} alone",
-                                fmt::join(plan.baseline, ", "));
-        }
-        if (!contrasts.left_out.empty()) what += "; " + contrasts.left_out.front();
-        throw InputError(what);
+    std::vector<std::string> left_out_of_paired;
+    const std::vector<ContrastPair> paired =
+        pair_with_baselines(all, paired_plan, left_out_of_paired);
+    for (std::string& what : left_out_of_paired) {
+        if (std::ranges::find(contrasts.left_out, what) == contrasts.left_out.end())
+            contrasts.left_out.push_back(std::move(what));
     }
+    if (pairs.empty()) throw no_baseline(input, plan, contrasts.left_out);
     contrasts.arms = contrast_pairs(pairs, plan);
-    contrasts.paired = paired_contrasts(pairs, plan, &contrasts.left_out);
+    contrasts.paired = paired_contrasts(paired, paired_plan, &contrasts.left_out);
     return contrasts;
 }
 

@@ -13,7 +13,7 @@
 
 namespace gene_clocks::report {
 
-/// One arm held against its baseline in one measure.
+/// One arm compared with its baseline in one measure.
 ///
 /// Both sides may share seeds, which makes their runs alike. The tests take all runs as
 /// independent: they are then conservative, in what they find different as in what they find
@@ -42,7 +42,7 @@ struct Contrast {
 
 Family family_of(const Contrast& contrast);
 
-/// Holds each arm against the baseline it is given, in that order; the plan's own does not count.
+/// Compares each arm with the baseline it is given, in that order; the plan's own does not count.
 /// A family, over which p-values are corrected, are the contrasts of one task and profile.
 /// Throws experiment::InputError where the plan or the runs are unfit.
 std::vector<Contrast> contrast_pairs(std::span<const ContrastPair> pairs, const ContrastPlan& plan);
@@ -51,11 +51,15 @@ std::vector<Contrast> contrast_pairs(std::span<const ContrastPair> pairs, const 
 struct Contrasts {
     std::vector<Contrast> arms;          ///< in the order of the arms
     std::vector<PairedContrast> paired;  ///< of the same arms, put together by what they change
-    std::vector<std::string> left_out;   ///< what of the study's arms is in neither, and why
+    std::vector<std::string> left_out;   ///< arms that are missing in one or both, and why
 };
 
-/// Holds every arm with runs against its baseline. Refers to the arms of `input`.
-/// Throws experiment::InputError where the plan or the runs are unfit, or no arm has a baseline.
-Contrasts contrast(const Input& input, const ContrastPlan& plan);
+/// Compares every arm with runs with its baseline: arm by arm after `plan`, seed by seed after
+/// `paired_plan`. Refers to the arms of `input`. Throws experiment::InputError where a plan or the
+/// runs are unfit, or no arm has a baseline.
+Contrasts contrast(const Input& input, const ContrastPlan& plan, const ContrastPlan& paired_plan);
+inline Contrasts contrast(const Input& input, const ContrastPlan& plan) {
+    return contrast(input, plan, plan);
+}
 
 }  // namespace gene_clocks::report

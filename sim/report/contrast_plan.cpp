@@ -56,7 +56,7 @@ std::map<Family, const ArmNumbers*> named_baselines(const std::vector<ArmNumbers
     return baselines;
 }
 
-/// The arm that one is held against; itself if it is a baseline, null where there is none.
+/// The baseline of an arm; itself if it is one, null where there is none.
 const ArmNumbers* baseline_of(const ArmNumbers& numbers, const std::vector<ArmNumbers>& all,
                               const ContrastPlan& plan) {
     const sim::Settings wanted = baseline_settings(plan, numbers.arm->settings);
@@ -68,6 +68,13 @@ const ArmNumbers* baseline_of(const ArmNumbers& numbers, const std::vector<ArmNu
 }
 
 }  // namespace
+
+ContrastPlan with_baselines(ContrastPlan plan, const experiment::Baselines& baselines) {
+    if (!baselines.baseline.empty()) plan.baseline = baselines.baseline;
+    plan.against = baselines.against;
+    plan.over = baselines.over;
+    return plan;
+}
 
 void check(const ContrastPlan& plan) {
     std::vector<std::string> names;
@@ -121,21 +128,24 @@ std::vector<ContrastPair> pair_with_baselines(const std::vector<ArmNumbers>& all
         const ArmNumbers* baseline = of_family != named.end() ? of_family->second
                                      : named.empty()          ? baseline_of(numbers, all, plan)
                                                               : nullptr;
+        const auto leave_out = [&](const std::string& why) {
+            left_out.push_back(fmt::format("{} is left out: {}", numbers.arm->name, why));
+        };
         if (baseline == nullptr) {
-            left_out.push_back(
-                fmt::format("{}: there is no arm to hold it against", numbers.arm->name));
+            leave_out(plan.against.empty()
+                          ? fmt::format("there is no arm with runs that has {} and is otherwise "
+                                        "the same",
+                                        fmt::join(plan.baseline, " and "))
+                          : "none of the arms to compare with has its task and profile");
         } else if (experiment::refers_to_best(plan.measure) &&
                    baseline->best.value != numbers.best.value) {
-            left_out.push_back(fmt::format(
-                "{}: its {} refers to the best swarm fitness over {}, that of {} to the best over "
-                "{}: they cannot be compared",
-                numbers.arm->name, plan.measure, numbers.best.over, baseline->arm->name,
-                baseline->best.over));
+            leave_out(fmt::format(
+                "its {} refers to the best swarm fitness over {}, that of {} to "
+                "the best over {}",
+                plan.measure, numbers.best.over, baseline->arm->name, baseline->best.over));
         } else if (baseline != &numbers && !has_margin({&numbers, baseline}, plan)) {
-            left_out.push_back(
-                fmt::format("{}: the {} that it is held against has a median of 0, of which no "
-                            "share makes a margin",
-                            numbers.arm->name, plan.measure));
+            leave_out(fmt::format("the median {} of {} is 0, and a margin is a share of that",
+                                  plan.measure, baseline->arm->name));
         } else if (baseline != &numbers) {
             pairs.push_back({&numbers, baseline});
         }

@@ -6,17 +6,18 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/experiment/study/contrast_table.hpp"
 #include "sim/report/comparison.hpp"
 #include "sim/statistics/equivalence.hpp"
 
 namespace gene_clocks::report {
 
-/// Which arms are set against which, in what.
+/// Which arms are compared with which, in what.
 struct ContrastPlan {
-    /// What turns an arm's settings into those of the arm it is held against: "key=value", as the
-    /// command line has it. An arm that these leave as it is, is a baseline itself.
+    /// What turns an arm's settings into those of its baseline: "key=value", as the command line
+    /// has it. An arm that these leave as it is, is a baseline itself.
     std::vector<std::string> baseline = {"source=gene-clock"};
-    /// Names of arms: where there are any, every arm is held against the one of its family instead.
+    /// Names of arms: where there are any, the baseline of every arm is the one of its family.
     std::vector<std::string> against = {};
     std::string measure = "f_c";  ///< an id of experiment::measures
     double margin_share = 0.05;  ///< differences below this share of the baseline's median are none
@@ -25,6 +26,9 @@ struct ContrastPlan {
     /// otherwise in the same way make one paired contrast.
     std::vector<std::string> over = {};
 };
+
+/// The same plan with other baselines.
+ContrastPlan with_baselines(ContrastPlan plan, const experiment::Baselines& baselines);
 
 /// Throws experiment::InputError for a measure or a key that does not exist and for shares outside
 /// (0, 1).

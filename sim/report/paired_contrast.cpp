@@ -100,10 +100,10 @@ std::optional<PairedContrast> contrast_of(const Change& change, const ContrastPl
     contrast.seeds = seeds.size();
     contrast.margin = margin_of(change, plan);
     if (!(contrast.margin > 0.0)) {
-        throw experiment::InputError(
-            fmt::format("arm \"{}\": the median of {} that it is held against is 0, of which no "
-                        "share makes a margin",
-                        change.pairs.front().arm->arm->name, plan.measure));
+        throw experiment::InputError(fmt::format(
+            "arm \"{}\": the median {} of its baseline is 0, and a margin is a share of that; "
+            "choose another measure with --measure",
+            change.pairs.front().arm->arm->name, plan.measure));
     }
     const auto arms = static_cast<double>(contrast.arms);
     std::vector<double> differences;
@@ -134,10 +134,10 @@ std::vector<PairedContrast> paired_contrasts(std::span<const ContrastPair> pairs
         if (auto contrast = contrast_of(change, plan)) {
             contrasts.push_back(*std::move(contrast));
         } else if (left_out != nullptr) {
-            left_out->push_back(
-                fmt::format("{} and what changes its baseline alike, seed by seed: they share "
-                            "fewer than two seeds",
-                            change.pairs.front().arm->arm->name));
+            left_out->push_back(fmt::format(
+                "{} and the arms that differ from their baselines as it does are left out of what "
+                "is compared seed by seed: fewer than two seeds are common to all of them",
+                change.pairs.front().arm->arm->name));
         }
     }
     correct_by_family(contrasts, plan.level);

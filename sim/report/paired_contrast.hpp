@@ -11,7 +11,7 @@
 
 namespace gene_clocks::report {
 
-/// Arms that differ from their baselines in the same way, held against them seed by seed and over
+/// Arms that differ from their baselines in the same way, compared with them seed by seed and over
 /// all conditions together: what a sweep as a whole says of that difference.
 ///
 /// A seed's difference is the mean, over the arms, of the arm's value above its baseline's. Those

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "sim/experiment/study/measures.hpp"
+#include "sim/report/compared_measures.hpp"
 #include "sim/settings/choice_names.hpp"
 #include "sim/settings/embedded_files.hpp"
 

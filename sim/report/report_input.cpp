@@ -60,8 +60,11 @@ Input read_input(const std::filesystem::path& file, const std::vector<std::strin
         if (input.study.empty()) {
             input.study = study.name;
             input.title = study.title;
+            input.contrast = study.contrast;
         } else {
             input.title += "; " + study.title;
+            if (study.contrast != input.contrast && !input.contrary_studies)
+                input.contrary_studies.emplace(input.study, study.name);
         }
         std::map<Kind, std::size_t> of_this;
         for (const StoredArm& stored : study.arms) {

@@ -4,8 +4,12 @@
 #include <filesystem>
 #include <gene_clocks/sim/settings.hpp>
 #include <gene_clocks/sim/simulation.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "sim/experiment/study/contrast_table.hpp"
 
 namespace gene_clocks::report {
 
@@ -32,6 +36,10 @@ struct Input {
     std::string command;          ///< that computes the same again
     std::string program_version;  ///< of the program that writes the report
     std::vector<ArmRuns> arms;
+    /// What the studies say their arms are compared with; none where they say nothing.
+    std::optional<experiment::ContrastTable> contrast = {};
+    /// Two of the studies that say different things, of which `contrast` is the first's.
+    std::optional<std::pair<std::string, std::string>> contrary_studies = {};
 };
 
 /// The runs of a store: of all its studies, or of the named ones. Arms of several studies are one

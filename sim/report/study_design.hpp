@@ -46,7 +46,7 @@ struct Group {
 /// The groups of the arms in `comparisons`, in their order; points into them.
 std::vector<Group> groups_of(const std::vector<Comparison>& comparisons);
 
-/// Two arms of a group, one to be held against the other.
+/// Two arms of a group, the second of which is the baseline.
 struct Pairing {
     const GroupArm* arm{};
     const GroupArm* baseline{};

@@ -24,7 +24,7 @@ const std::array<Place, 4> places = {{
 }};
 
 /// Whether the runs are as long as the paper's, with as many robots and items. What a swarm reaches
-/// can only then be held against the paper.
+/// can only then be compared with the paper.
 bool paper_scale(const sim::Settings& settings, bool full_length) {
     const Published& paper = published();
     const auto equals = [&](std::int64_t value, const char* key) {

@@ -160,7 +160,8 @@ void read_settings(const Document& document, const toml::table& table, sim::Sett
 }
 
 void assign(sim::Settings& settings, std::string_view assignment, std::string_view option) {
-    const Place place{fmt::format("{} {}", option, assignment)};
+    const Place place{option.empty() ? std::string(assignment)
+                                     : fmt::format("{} {}", option, assignment)};
     const auto equals = assignment.find('=');
     if (equals == std::string_view::npos || equals == 0) {
         throw InputError(place.prefix() + "expected key=value, as in odneat.p_mate=0.5");

@@ -192,6 +192,15 @@ std::vector<StoredArm> read_arms(SQLite::Database& database, const std::string& 
     return arms;
 }
 
+std::optional<ContrastTable> read_contrast(SQLite::Database& database, const std::string& study) {
+    if (!database.tableExists("contrast")) return std::nullopt;
+    SQLite::Statement row(database, "SELECT baselines FROM contrast WHERE study = ?");
+    row.bind(1, study);
+    if (!row.executeStep()) return std::nullopt;
+    return contrast_table_from(row.getColumn(0).getString(),
+                               fmt::format("{}, study {}", database.getFilename(), study));
+}
+
 }  // namespace
 
 /// Calls a function; what SQLite complains of then names the file. Throws InputError where that is
@@ -245,8 +254,8 @@ void Store::take_over_new_keys() {
 
 void Store::put_study(const Study& study) {
     naming_file([&] {
-        StoredStudy stored{study.name,       study.title, study.description,
-                           study.first_seed, study.seeds, {}};
+        StoredStudy stored{study.name,  study.title, study.description, study.first_seed,
+                           study.seeds, {},          study.contrast};
         SQLite::Transaction transaction(*database_);
         for (const Arm& arm : study.arms) {
             execute(*database_, "INSERT OR IGNORE INTO settings VALUES (?, ?)", arm.settings_hash,
@@ -268,6 +277,10 @@ void Store::insert_study(const StoredStudy& study) {
         execute(*database_, "INSERT INTO arm VALUES (?, ?, ?, ?, ?, ?, ?)", study.name, position++,
                 arm.name, arm.profile, arm.parameters, arm.settings_hash,
                 to_json(arm.settings).dump());
+    }
+    if (study.contrast) {
+        execute(*database_, "INSERT INTO contrast VALUES (?, ?)", study.name,
+                to_text(*study.contrast));
     }
 }
 
@@ -415,6 +428,7 @@ std::vector<StoredStudy> Store::studies() const {
             study.first_seed = unsigned_column(rows, "first_seed");
             study.seeds = rows.getColumn("seeds").getInt64();
             study.arms = read_arms(*database_, study.name);
+            study.contrast = read_contrast(*database_, study.name);
             studies.push_back(std::move(study));
         }
         return studies;

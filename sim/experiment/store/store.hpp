@@ -6,6 +6,7 @@
 #include <gene_clocks/sim/simulation.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -54,6 +55,7 @@ struct StoredStudy {
     std::uint64_t first_seed{};
     std::int64_t seeds{};
     std::vector<StoredArm> arms;
+    std::optional<ContrastTable> contrast = {};  ///< what its arms are compared with, if it says
 };
 
 /// The results of runs in one SQLite file. Every function may throw InputError, where the file is

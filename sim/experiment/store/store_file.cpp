@@ -108,6 +108,7 @@ std::unique_ptr<SQLite::Database> open_store_for_writing(const std::filesystem::
         }
         database->exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
         take_lock(*database);
+        database->exec(std::string(embedded_text("experiment/store/contrast_schema.sql")));
         return database;
     } catch (const SQLite::Exception& error) {
         throw explain(file, error);

@@ -42,6 +42,8 @@ std::string difference(const StoredStudy& a, const StoredStudy& b) {
     if (a.title != b.title) return "another title";
     if (a.description != b.description) return "another description";
     if (a.first_seed != b.first_seed || a.seeds != b.seeds) return "other seeds";
+    // Older stores say nothing of contrasts.
+    if (a.contrast && b.contrast && *a.contrast != *b.contrast) return "another table [contrast]";
     if (a.arms.size() != b.arms.size()) return "another number of arms";
     for (std::size_t i = 0; i < a.arms.size(); ++i) {
         const StoredArm& one = a.arms[i];

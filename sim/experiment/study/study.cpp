@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -123,6 +124,22 @@ Arm read_arm(const Document& document, const Place& place, const ArmPlan& plan,
     return arm;
 }
 
+/// Throws InputError where a table [contrast] names an arm that the study has not.
+void check_names(const Study& study, const Place& place) {
+    std::vector<std::string> names;
+    for (const Arm& arm : study.arms) names.push_back(arm.name);
+    const auto check = [&](const Baselines& baselines, const char* key) {
+        for (const std::string& name : baselines.against) {
+            if (std::ranges::find(names, name) != names.end()) continue;
+            throw key_error(
+                place, key,
+                fmt::format("the study has no arm \"{}\"{}", name, suggestion(name, names)));
+        }
+    };
+    check(study.contrast->arms, "contrast.against");
+    if (study.contrast->paired) check(*study.contrast->paired, "contrast.paired.against");
+}
+
 }  // namespace
 
 Study read_study(const Document& document, const StudyOptions& options) {
@@ -136,6 +153,7 @@ Study read_study(const Document& document, const StudyOptions& options) {
     study.seeds = reader.integer("seeds", seeds_range).value_or(1);
     Common common{reader.text("profile").value_or("mended"), reader.table("settings"), nullptr};
     const toml::table* quick = reader.table("quick");
+    const toml::table* contrast = reader.table("contrast");
     const auto arms = reader.tables("arm");
     reader.refuse_other_keys();
     if (arms.empty()) throw reader.error("arm", "is missing: a study needs one [[arm]] at least");
@@ -169,6 +187,10 @@ Study read_study(const Document& document, const StudyOptions& options) {
             }
             study.arms.push_back(read_arm(document, place, plan, common, options));
         }
+    }
+    if (contrast != nullptr) {
+        study.contrast = read_contrast_table(document, *contrast);
+        check_names(study, document.place_of(*contrast));
     }
     return study;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/experiment/study/contrast_table.hpp"
 #include "sim/experiment/study/runner.hpp"
 #include "sim/settings/document.hpp"
 
@@ -31,6 +32,7 @@ struct Study {
     std::uint64_t first_seed = 1;
     std::int64_t seeds = 1;
     std::vector<Arm> arms;
+    std::optional<ContrastTable> contrast = {};  ///< its table [contrast], if it has one
 };
 
 /// What the command line may change about a study.

@@ -216,7 +216,10 @@ TEST_F(BadInputTest, OtherStudiesAndPathsOnExport) {
                    "none/b.csv: cannot be written");
     expect_refusal(contrast("--baseline", "radio.los=0"),
                    "--baseline radio.los=0: radio.los: unknown key; did you mean radio.loss?");
-    expect_refusal(contrast("--baseline", "radio.loss=0"), "no arm has one to be held against");
+    expect_refusal(contrast("--baseline", "odneat.population=7"),
+                   "study \"gecco15-quick\": no arm has a baseline; navigation-gene-clock is left "
+                   "out: there is no arm with runs that has odneat.population=7 and is otherwise "
+                   "the same; give another --baseline, or name an arm with --against");
     expect_refusal({"contrast", "none.sqlite"}, "none.sqlite: there is no such store");
 }
 

@@ -246,6 +246,69 @@ TEST_F(CommandLineTest, WhatStudiesHaveInCommonCountsOnce) {
     EXPECT_NE(one, both);
 }
 
+TEST_F(CommandLineTest, AStudySaysWhatItsArmsAreComparedWith) {
+    const auto make = [&](const std::string& name, const std::string& contrast) {
+        folder.write(name + ".toml", "name = \"" + name + R"("
+title = "x"
+seeds = 3
+[settings]
+run.cycles = 300
+world.robots = 5
+[contrast]
+)" + contrast + R"(
+[[arm]]
+task = "navigation"
+source = ["gene-clock", "timestamp"]
+grid.radio.loss = [0, 0.5]
+)");
+        output_of({"study", name + ".toml", "--store", "both.sqlite"});
+    };
+    const auto first_rows = [&](Program::Arguments arguments) {
+        arguments.insert(arguments.begin(), {"contrast", "both.sqlite"});
+        arguments.insert(arguments.end(), {"--csv", "arms.csv", "--paired-csv", "-"});
+        const auto second_line = [](const std::string& csv) {
+            std::istringstream stream(csv);
+            std::string line;
+            std::getline(stream, line);
+            std::getline(stream, line);
+            return line + "\n";
+        };
+        const std::string paired = second_line(output_of(arguments));
+        return second_line(test::read_all(folder / "arms.csv")) + paired;
+    };
+    make("one",
+         "baseline = [\"radio.loss=0\"]\npaired.baseline = [\"source=gene-clock\"]\n"
+         "paired.over = [\"radio.loss\"]");
+    EXPECT_THAT(first_rows({}),
+                testing::AllOf(HasSubstr("navigation-gene-clock-loss-0p5,navigation-gene-clock-"
+                                         "loss-0,"),
+                               HasSubstr(",source=timestamp,navigation-timestamp-loss-0,2,3,")));
+    EXPECT_THAT(first_rows({"--baseline", "source=gene-clock"}),
+                HasSubstr("navigation-timestamp-loss-0,navigation-gene-clock-loss-0,"));
+    make("two", "baseline = [\"source=gene-clock\"]");
+    EXPECT_THAT(first_rows({"--study", "two"}),
+                HasSubstr("navigation-timestamp-loss-0,navigation-gene-clock-loss-0,"));
+    const auto both = test::gene_clocks(folder.path(), {"contrast", "both.sqlite"});
+    EXPECT_EQ(both.status, 2);
+    EXPECT_THAT(both.messages, HasSubstr("the studies one and two say different things"));
+}
+
+TEST_F(CommandLineTest, ContrastsOfTimeToTargetNameTheBest) {
+    output_of({"study", "gecco15", "--quick", "--seeds", "3", "--set", "run.cycles=300",
+               "world.robots=5"});
+    const std::string store = "results/gecco15-quick.sqlite";
+    EXPECT_THAT(output_of({"contrast", store, "--measure", "f_b"}),
+                testing::Not(HasSubstr("best swarm fitness")));
+    const std::string over = "over 6 runs of navigation under profile gecco15";
+    EXPECT_THAT(output_of({"contrast", store, "--measure", "f_b"}), HasSubstr("f_b against"));
+    EXPECT_THAT(output_of({"contrast", store, "--measure", "t_f"}), HasSubstr(over));
+    for (const char* option : {"--csv", "--paired-csv"}) {
+        const std::string csv = output_of({"contrast", store, "--measure", "t_f", option, "-"});
+        EXPECT_THAT(csv, HasSubstr(",best_swarm_fitness,best_over\n"));
+        EXPECT_THAT(csv, HasSubstr(",6 runs of navigation under profile gecco15\n"));
+    }
+}
+
 TEST_F(CommandLineTest, ReproduceLeavesAStoreAndAReport) {
     output_of(
         {"reproduce", "--quick", "--seeds", "2", "--set", "run.cycles=300", "world.robots=5"});

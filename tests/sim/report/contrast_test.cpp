@@ -29,7 +29,7 @@ std::vector<double> final_fitness(const ArmRuns& arm) {
     return values;
 }
 
-TEST(Contrast, HoldsEachSourceAgainstGeneClocksOfTheSameTask) {
+TEST(Contrast, ComparesEachSourceWithGeneClocksInTheSameTask) {
     const Input input = input_of({{.source = timestamp},
                                   {},
                                   {.source = global_counter},
@@ -155,13 +155,14 @@ TEST(Contrast, FindsItsBaselineBySettings) {
     EXPECT_EQ(by_loss[1].arm, &input.arms[2]);
     EXPECT_EQ(by_loss[0].baseline, &input.arms[0]);
     EXPECT_EQ(left_out, std::vector<std::string>{input.arms[3].name +
-                                                 ": there is no arm to hold it against"});
+                                                 " is left out: there is no arm with runs that has "
+                                                 "radio.loss=0 and is otherwise the same"});
     const auto by_both = contrast(input, {.baseline = {"radio.loss=0", "source=gene-clock"}}).arms;
     ASSERT_EQ(by_both.size(), 3U);
     EXPECT_EQ(by_both[2].baseline, &input.arms[0]);
 }
 
-TEST(Contrast, HoldsAllOfATaskAgainstANamedArm) {
+TEST(Contrast, ComparesAllOfATaskWithANamedArm) {
     const Input input = input_of({{},
                                   {.source = timestamp},
                                   {.parameters = "A"},
@@ -198,7 +199,19 @@ TEST(Contrast, AgainstAMedianOfZeroIsLeftOut) {
     ASSERT_EQ(found.arms.size(), 1U);
     EXPECT_EQ(found.arms[0].arm, &input.arms[3]);
     ASSERT_EQ(found.left_out.size(), 1U);
-    EXPECT_NE(found.left_out[0].find("has a median of 0"), std::string::npos);
+    EXPECT_NE(found.left_out[0].find("is 0, and a margin is a share of that"), std::string::npos);
+}
+
+TEST(Contrast, SeedBySeedMayAskForOtherBaselines) {
+    Input input = input_of({{}, {.source = timestamp}, {}});
+    input.arms[2].settings.radio.loss = 0.5;
+    const ContrastPlan by_source;
+    const ContrastPlan by_loss = with_baselines({}, {.baseline = {"radio.loss=0"}});
+    const Contrasts found = contrast(input, by_source, by_loss);
+    ASSERT_EQ(found.arms.size(), 1U);
+    EXPECT_EQ(found.arms[0].arm, &input.arms[1]);
+    ASSERT_EQ(found.paired.size(), 1U);
+    EXPECT_EQ(found.paired[0].first_arm, &input.arms[2]);
 }
 
 TEST(Contrast, OfANameThatSeveralArmsHaveIsRefused) {
@@ -207,7 +220,7 @@ TEST(Contrast, OfANameThatSeveralArmsHaveIsRefused) {
     EXPECT_THROW((void)contrast(input, {.against = {input.arms[0].name}}), InputError);
 }
 
-TEST(Contrast, RefusesWhatCannotBeHeldAgainstAnything) {
+TEST(Contrast, RefusesWhatCannotBeCompared) {
     const Input two = input_of({{}, {.source = timestamp}});
     EXPECT_THROW((void)contrast(input_of({{}}), {}), InputError);
     EXPECT_THROW((void)contrast(Input{}, {}), InputError);

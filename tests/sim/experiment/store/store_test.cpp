@@ -159,6 +159,35 @@ TEST_F(StoreTest, TablesHaveAColumnForEachFieldAndNoOther) {
               }));
 }
 
+TEST_F(StoreTest, KeepsWhatArmsAreComparedWith) {
+    study.contrast = ContrastTable{{.baseline = {"radio.loss=0"}}, Baselines{.against = {"one"}}};
+    {
+        Store store = Store::open_for_writing(file);
+        store.put_study(study);
+    }
+    EXPECT_EQ(Store::open_for_reading(file).study("example").contrast, study.contrast);
+    study.contrast.reset();
+    Store::open_for_writing(file).put_study(study);
+    EXPECT_FALSE(Store::open_for_reading(file).study("example").contrast);
+}
+
+TEST_F(StoreTest, OfEarlierVersionsKnowsNoContrasts) {
+    {
+        Store store = Store::open_for_writing(file);
+        store.put_study(study);
+        store.put_run(example_run(study.arms[0], 3));
+    }
+    SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec("DROP TABLE contrast");
+    EXPECT_FALSE(Store::open_for_reading(file).study("example").contrast);
+    study.contrast = ContrastTable{{.over = {"radio.loss"}}, {}};
+    {
+        Store store = Store::open_for_writing(file);
+        EXPECT_EQ(store.finished().size(), 1U);
+        store.put_study(study);
+    }
+    EXPECT_EQ(Store::open_for_reading(file).study("example").contrast, study.contrast);
+}
+
 TEST_F(StoreTest, LeavesOutRunsWithOtherSeeds) {
     Store store = Store::open_for_writing(file);
     store.put_study(study);
