@@ -16,8 +16,8 @@ namespace gene_clocks::report {
 /// One arm's runs, as numbers.
 struct ArmNumbers {
     const ArmRuns* arm{};
-    std::vector<const Run*>
-        runs;  ///< ascending by seed; never empty; all sampled at the same cycles
+    /// Ascending by seed; never empty; all sampled at the same cycles.
+    std::vector<const Run*> runs;
     /// By measure, in the order of `runs`. A measure that the runs are too short for is absent.
     std::map<std::string_view, std::vector<double>> values;
     experiment::BestSwarmFitness best;  ///< that t_f and f_a refer to

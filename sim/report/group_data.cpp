@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "sim/report/contrast.hpp"
+#include "sim/report/interval_json.hpp"
 #include "sim/report/study_design.hpp"
 #include "sim/settings/choice_names.hpp"
 
@@ -13,10 +14,6 @@ namespace {
 
 using experiment::name_of;
 using Json = nlohmann::ordered_json;
-
-Json to_json(const statistics::Interval& interval) {
-    return {interval.lower, interval.upper};
-}
 
 Json factor_json(const Factor& factor, bool is_treatment) {
     const experiment::Setting& leader = *factor.settings.front();

@@ -18,6 +18,7 @@
 #include "sim/report/compared_measures.hpp"
 #include "sim/report/comparison.hpp"
 #include "sim/report/group_data.hpp"
+#include "sim/report/interval_json.hpp"
 #include "sim/report/published.hpp"
 #include "sim/report/verdicts.hpp"
 #include "sim/settings/choice_names.hpp"
@@ -32,6 +33,7 @@ namespace gene_clocks::report {
 namespace {
 
 using experiment::name_of;
+using report::to_json;
 using Json = nlohmann::ordered_json;
 
 constexpr int format = 1;
@@ -46,10 +48,6 @@ constexpr std::array<std::pair<const char*, double sim::Sample::*>, 3> curves = 
 template <typename Value>
 Json or_null(const std::optional<Value>& value) {
     return value ? Json(*value) : Json(nullptr);
-}
-
-Json to_json(const statistics::Interval& interval) {
-    return {interval.lower, interval.upper};
 }
 
 Json to_json(const experiment::Value& value) {

@@ -14,8 +14,8 @@ struct Selection {
     sim::Task task = sim::Task::navigation;
     sim::Source source = sim::Source::gene_clock;
     std::string profile = "mended";  ///< a built-in profile, or a file ending in ".toml"
-    std::optional<std::string> parameters =
-        {};  ///< a set of parameters.toml; the profile's if absent
+    /// A set of parameters.toml; where there is none, the profile's.
+    std::optional<std::string> parameters = {};
 };
 
 /// The names of the parameter sets: "A", "B", "C".

@@ -27,8 +27,6 @@ public:
         if (largest - next_ < robots_) return std::nullopt;
         return next();
     }
-    Stamp stamp() const override { return {}; }
-    bool observe(Stamp) override { return true; }
 
 private:
     static constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();

@@ -19,8 +19,6 @@ public:
                                          double) override;
     std::optional<InnovationNumber> mark_connection(const Genome& genome,
                                                     const ConnectionEnds& ends, double) override;
-    Stamp stamp() const override { return {}; }
-    bool observe(Stamp) override { return true; }
 
 private:
     std::uint64_t genesis_count_;

@@ -16,9 +16,7 @@ public:
         : clock_(robot, genesis_count, limits) {}
 
     std::optional<SplitMarks> mark_split(const Genome&, std::size_t, double) override {
-        const auto marks = clock_.mint(3);
-        if (!marks) return std::nullopt;
-        return SplitMarks{(*marks)[0], (*marks)[1], (*marks)[2]};
+        return mint_split(clock_);
     }
     std::optional<InnovationNumber> mark_connection(const Genome&, const ConnectionEnds&,
                                                     double) override {

@@ -49,8 +49,6 @@ public:
                                                     double) override {
         return record_->join(ends.source, ends.target);
     }
-    Stamp stamp() const override { return {}; }
-    bool observe(Stamp) override { return true; }
 
 private:
     std::shared_ptr<InnovationRecord> record_;

@@ -18,6 +18,13 @@ struct SplitMarks {
     InnovationNumber outgoing;
 };
 
+/// The next three marks of a clock; all or none.
+inline std::optional<SplitMarks> mint_split(GeneClock& clock) {
+    const auto marks = clock.mint(3);
+    if (!marks) return std::nullopt;
+    return SplitMarks{(*marks)[0], (*marks)[1], (*marks)[2]};
+}
+
 /// What marks the new genes of one robot.
 ///
 /// Called at structural mutations and once per message, never in the path of every cycle. A
@@ -39,8 +46,8 @@ public:
                                                             const ConnectionEnds& ends,
                                                             double now_cycles) = 0;
 
-    /// What a message carries beside the genome; zero for a source that sends nothing.
-    virtual Stamp stamp() const = 0;
+    /// What a message carries beside the genome; zero, as here, for a source that sends nothing.
+    virtual Stamp stamp() const { return {}; }
 
     /// The stamp of a message that is to leave now, with the robot's genome number `birth`; nullopt
     /// while it must be held, since what it says is not yet on stable storage.
@@ -53,8 +60,12 @@ public:
     /// sent in earlier ones, where the source remembers those.
     virtual std::uint32_t first_birth() const { return 0; }
 
-    /// Reception of a message's stamp. False: the message must be dropped whole.
-    virtual bool observe(Stamp stamp) = 0;
+    /// Reception of a message's stamp. False: the message must be dropped whole. A source that
+    /// learns nothing from others takes every message, as here.
+    virtual bool observe(Stamp stamp) {
+        static_cast<void>(stamp);
+        return true;
+    }
 
     /// The same with a look at the genome, for a source that trusts nobody.
     virtual Admission admit(Stamp stamp, const Genome&) {

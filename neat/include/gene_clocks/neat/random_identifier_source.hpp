@@ -31,8 +31,6 @@ public:
                                                     double) override {
         return mark_of(ends.source, ends.target);
     }
-    Stamp stamp() const override { return {}; }
-    bool observe(Stamp) override { return true; }
 
 private:
     static constexpr std::uint32_t identifiers = 1000;

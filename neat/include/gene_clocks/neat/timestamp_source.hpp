@@ -27,8 +27,6 @@ public:
                                                     double now_cycles) override {
         return read(now_cycles);
     }
-    Stamp stamp() const override { return {}; }
-    bool observe(Stamp) override { return true; }
 
 private:
     std::optional<InnovationNumber> read(double now_cycles) {

@@ -11,8 +11,8 @@ struct Sample {
     std::int64_t cycle{};
     double swarm_fitness{};  ///< F_s
     double species{};        ///< species in the local population
-    double
-        added_elements{};  ///< neurons and connections beyond the initial ones, with disabled ones
+    /// Neurons and connections beyond the initial ones, disabled ones included.
+    double added_elements{};
     double controller_size{};  ///< neurons and connections of the active genome
 };
 

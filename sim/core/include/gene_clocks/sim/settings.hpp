@@ -53,8 +53,8 @@ struct WorldSettings {
     double item_radius_px = 6.0;           ///< of the body that rays and robots meet
     double item_reach_px = 10.0;           ///< picked up when the robot's centre is this near
     std::int64_t item_absence_cycles = 2;  ///< until a picked-up item reappears elsewhere
-    double item_slip =
-        0.0;  ///< share of wall readings that pass for items (a slip of the reference)
+    /// Share of wall readings that pass for items (a slip of the reference).
+    double item_slip = 0.0;
 };
 
 /// Radio: a robot is heard by those that its rays see.
