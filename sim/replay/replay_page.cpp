@@ -108,6 +108,7 @@ ordered_json to_json(const RecordedRun& run) {
         {"format", 1},
         {"task", experiment::name_of(run.settings.task)},
         {"source", experiment::name_of(run.settings.source)},
+        {"source_title", sim::display_of(run.settings.source).title},
         {"robots", run.settings.world.robots},
         {"items", run.settings.task == sim::Task::collection ? run.settings.world.items : 0},
         {"cycles", run.settings.run.cycles},

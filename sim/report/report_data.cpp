@@ -338,6 +338,19 @@ Json table_1_json(const std::vector<Comparison>& comparisons) {
     return json;
 }
 
+/// How the page calls and draws each source.
+Json sources_json() {
+    Json json;
+    for (const sim::SourceDisplay& source : sim::sources) {
+        json[std::string(source.name)] = {{"title", source.title},
+                                          {"colour", source.colour},
+                                          {"dark_colour", source.dark_colour},
+                                          {"dashes", source.dashes},
+                                          {"marker", source.marker}};
+    }
+    return json;
+}
+
 Json provenance_json(const Input& input) {
     std::set<std::string> versions;
     double cpu_seconds = 0.0;
@@ -371,6 +384,7 @@ nlohmann::ordered_json report_data(const Input& input) {
         json["paper"]["cycles"][std::string(name_of(task))] = numbers.cycles;
     json["bootstrap"] = {{"resamples", statistics::BootstrapSettings{}.resamples},
                          {"confidence", statistics::BootstrapSettings{}.confidence}};
+    json["sources"] = sources_json();
     json["table_1"] = table_1_json(comparisons);
     json["missing_arms"] = Json::array();
     for (const ArmRuns& arm : input.arms) {

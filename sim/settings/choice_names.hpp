@@ -16,10 +16,11 @@ template <>
 inline constexpr std::array<std::string_view, 2> choice_names<sim::Task> = {"navigation",
                                                                             "collection"};
 template <>
-inline constexpr std::array<std::string_view, 9> choice_names<sim::Source> = {
-    "gene-clock",       "gene-clock-no-merge", "timestamp",
-    "timestamp-drift",  "random-identifier",   "global-counter",
-    "congruence-class", "content-hash",        "hybrid-logical-clock"};
+inline constexpr auto choice_names<sim::Source> = [] {
+    std::array<std::string_view, sim::sources.size()> names;
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = sim::sources[i].name;
+    return names;
+}();
 template <>
 inline constexpr std::array<std::string_view, 2> choice_names<sim::Actuation> = {
     "translation-rotation", "wheels"};

@@ -1,12 +1,5 @@
 #include "sim/core/src/source_factory.hpp"
 
-#include <gene_clocks/neat/congruence_class_source.hpp>
-#include <gene_clocks/neat/content_hash_source.hpp>
-#include <gene_clocks/neat/gene_clock_source.hpp>
-#include <gene_clocks/neat/hybrid_logical_clock_source.hpp>
-#include <gene_clocks/neat/random_identifier_source.hpp>
-#include <gene_clocks/neat/timestamp_source.hpp>
-#include <gene_clocks/neat/unmerged_gene_clock_source.hpp>
 #include <stdexcept>
 
 #include "sim/core/src/random_streams.hpp"
@@ -25,11 +18,8 @@ SourceFactory::SourceFactory(const Settings& settings, std::uint64_t genesis_cou
     : settings_(settings),
       genesis_count_(genesis_count),
       seed_(seed),
-      local_times_(draw_local_times()) {
-    if (settings.source == Source::global_counter) {
-        record_ = std::make_shared<neat::InnovationRecord>(genesis_count);
-    }
-}
+      local_times_(draw_local_times()),
+      record_(std::make_shared<neat::InnovationRecord>(genesis_count)) {}
 
 std::vector<neat::LocalTime> SourceFactory::draw_local_times() const {
     const bool is_typical =
@@ -52,28 +42,19 @@ std::vector<neat::LocalTime> SourceFactory::draw_local_times() const {
 std::unique_ptr<neat::InnovationSource> SourceFactory::make(RobotId robot,
                                                             std::uint64_t life) const {
     const auto index = static_cast<std::uint64_t>(robot);
-    const auto local_time = [&] { return local_times_.at(index - 1); };
+    const neat::SourceParts parts{
+        .robot = robot,
+        .robots = static_cast<std::uint64_t>(settings_.world.robots),
+        .genesis_count = genesis_count_,
+        .time = local_times_.at(index - 1),
+        .random = make_stream(seed_, Stream::identifiers, index + (life << 20)),
+        .record = record_};
     switch (settings_.source) {
-        case Source::gene_clock:
-            return std::make_unique<neat::GeneClockSource>(robot, genesis_count_);
-        case Source::gene_clock_no_merge:
-            return std::make_unique<neat::UnmergedGeneClockSource>(robot, genesis_count_);
-        case Source::timestamp:
-        case Source::timestamp_drift:
-            return std::make_unique<neat::TimestampSource>(robot, genesis_count_, local_time());
-        case Source::random_identifier:
-            return std::make_unique<neat::RandomIdentifierSource>(
-                genesis_count_, make_stream(seed_, Stream::identifiers, index + (life << 20)));
-        case Source::global_counter:
-            return std::make_unique<neat::GlobalCounterSource>(record_);
-        case Source::congruence_class:
-            return std::make_unique<neat::CongruenceClassSource>(
-                robot, static_cast<std::uint64_t>(settings_.world.robots), genesis_count_);
-        case Source::content_hash:
-            return std::make_unique<neat::ContentHashSource>(genesis_count_);
-        case Source::hybrid_logical_clock:
-            return std::make_unique<neat::HybridLogicalClockSource>(robot, genesis_count_,
-                                                                    local_time());
+#define GENE_CLOCKS_MAKE_SOURCE(enumerator, name, class_name, ...) \
+    case Source::enumerator:                                       \
+        return std::make_unique<neat::class_name>(parts);
+        GENE_CLOCKS_SOURCES(GENE_CLOCKS_MAKE_SOURCE)
+#undef GENE_CLOCKS_MAKE_SOURCE
     }
     throw std::invalid_argument("unknown innovation source");
 }

@@ -29,8 +29,8 @@ private:
     const Settings& settings_;
     std::uint64_t genesis_count_;
     std::uint64_t seed_;
-    std::vector<neat::LocalTime> local_times_;        // by robot, from 1
-    std::shared_ptr<neat::InnovationRecord> record_;  // global counter only
+    std::vector<neat::LocalTime> local_times_;  // by robot, from 1
+    std::shared_ptr<neat::InnovationRecord> record_;
 };
 
 }  // namespace gene_clocks::sim

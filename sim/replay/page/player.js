@@ -4,13 +4,6 @@
 const SPEEDS = [10, 25, 50, 100, 250, 500, 1000, 2500, 5000];  // cycles per second
 const LOST_GENES = 100;
 const FLUENT_PICTURES_PER_SECOND = 24;
-const MARKINGS = {
-  'gene-clock': 'gene clocks', 'gene-clock-no-merge': 'gene clocks that do not merge',
-  timestamp: 'timestamps', 'timestamp-drift': 'timestamps of drifting clocks',
-  'random-identifier': 'random identifiers', 'global-counter': 'one global counter',
-  'congruence-class': 'congruence classes', 'content-hash': 'content hashes',
-  'hybrid-logical-clock': 'hybrid logical clocks',
-};
 const byId = (id) => document.getElementById(id);
 
 /** A new element with children or text. */
@@ -90,7 +83,7 @@ class Player {
   describeRun() {
     const { data, robots, cycles } = this.recording;
     const task = data.task[0].toUpperCase() + data.task.slice(1);
-    byId('title').textContent = `${task} with ${MARKINGS[data.source] ?? data.source}`;
+    byId('title').textContent = `${task} with ${data.source_title.toLowerCase()}`;
     document.title = `${byId('title').textContent}: a run to watch – Gene Clocks`;
     const genes = data.genealogy.length;
     byId('lead').textContent = `${robots} robots over ${grouped(cycles)} cycles. Every gene bears a mark ⟨counter, robot⟩; `

@@ -9,13 +9,12 @@ from html import escape
 
 import palette
 
-# The colours of figures.mplstyle and palette.py, by the CSS variable that stands for each.
+# The colours of figures.mplstyle, by the CSS variable that stands for each.
 VARIABLES = {
     "#1b1f24": "--ink",
     "#5f6670": "--muted",
     "#d9dde2": "--grid",
     "#ffffff": "--paper",
-    **{look.colour: f"--{source}" for source, look in palette.SOURCES.items()},
 }
 
 
@@ -29,7 +28,8 @@ def inline(svg, identifier, text):
     markup = re.sub(r'\bid="([^"]+)"', rf'id="{identifier}-\1"', markup)
     markup = re.sub(r'href="#([^"]+)"', rf'href="#{identifier}-\1"', markup)
     markup = re.sub(r"url\(#([^)]+)\)", rf"url(#{identifier}-\1)", markup)
-    for colour, variable in VARIABLES.items():
+    of_sources = {look.colour: f"--{source}" for source, look in palette.SOURCES.items()}
+    for colour, variable in {**VARIABLES, **of_sources}.items():
         markup = markup.replace(colour, f"var({variable})")
     opening = (f'<svg role="img" aria-labelledby="{identifier}-text" '
                f'width="100%" {_attribute(markup, "viewBox")} xmlns="http://www.w3.org/2000/svg">'

@@ -177,18 +177,18 @@ def _looks(group, panels, members):
     """Of each arm in a panel: (its label in the legend, its look, the arm)."""
     arms = [group.arms[member] for member in members]
     if len(panels) == 1:
-        looks = [arm.look if arm.treatment else palette.OTHERS[i] for i, arm in enumerate(arms)]
+        looks = [arm.look if arm.treatment else palette.other(i) for i, arm in enumerate(arms)]
         return zip([arm.label or arm.name for arm in arms], looks, arms)
     if panels == list(group.conditions.items()):
         return zip([arm.treatment for arm in arms], [arm.look for arm in arms], arms)
     own = arms[-1]
-    look = own.look if own.look != palette.BASELINE else palette.HIGHLIGHT
+    look = own.look if own.look != palette.baseline() else palette.highlight()
     if len(arms) == 1:
         return [("", look, own)]
     baselines = {held[0] for _, held in panels if len(held) == 2}
     is_shared = own.treatment and all(title == group.arms[held[-1]].condition for title, held in panels)
     label = arms[0].label if len(baselines) == 1 else "its baseline"
-    return [(label, palette.BASELINE, arms[0]), (own.treatment if is_shared else OWN_ARM, look, own)]
+    return [(label, palette.baseline(), arms[0]), (own.treatment if is_shared else OWN_ARM, look, own)]
 
 
 def arm_rows(group):

@@ -60,7 +60,7 @@ class Group:
         for factor, level in zip(self.factors, entry["levels"]):
             if factor["treatment"]:
                 position = position * len(factor["levels"]) + level
-        return palette.OTHERS[position % len(palette.OTHERS)]
+        return palette.other(position)
 
     @property
     def title(self):

@@ -54,7 +54,7 @@ class Lines:
             first = next(iter(members.values()))
             is_named = len(arms) > 1
             self.series.append(Series(first.treatment if is_named else "", first.look if first.treatment
-                                      else palette.OTHERS[i % len(palette.OTHERS)], members))
+                                      else palette.other(i), members))
         values = [level[0] for level in self.factor["levels"]]
         positive = [value for value in values if value > 0]
         self.is_even = False

@@ -2,17 +2,15 @@
 
 from markupsafe import escape
 
-SOURCES = {
-    "gene-clock": "Gene Clocks",
-    "gene-clock-no-merge": "Gene Clocks, no merge",
-    "timestamp": "Timestamps",
-    "timestamp-drift": "Drifting timestamps",
-    "random-identifier": "Random identifiers",
-    "global-counter": "Global counter",
-    "congruence-class": "Congruence classes",
-    "content-hash": "Content hash",
-    "hybrid-logical-clock": "Hybrid logical clocks",
-}
+SOURCES = {}  # titles by name; filled by `use`, from the simulator's one list
+
+
+def use(sources):
+    """Takes over how report.json says that innovation sources are called."""
+    SOURCES.clear()
+    SOURCES.update({name: source["title"] for name, source in sources.items()})
+
+
 PAPER_SOURCES = ("gene-clock", "timestamp")
 TASKS = {"navigation": "navigation", "collection": "item collection"}
 ORIGINS = {"paper": "paper", "reference": "reference system"}

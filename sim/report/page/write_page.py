@@ -15,6 +15,7 @@ import jinja2
 import chronology_figures
 import exhibits
 import figures
+import palette
 import report_data
 import study_figures
 import study_groups
@@ -60,6 +61,8 @@ def page(data, parts, groups, drawn):
 
 def write(data_path, folder):
     data = report_data.load(data_path)
+    palette.use(data["sources"].plain())
+    wording.use(data["sources"].plain())
     figures.use_style()
     folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=folder) as temporary:

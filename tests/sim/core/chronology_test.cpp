@@ -355,11 +355,6 @@ private:
     std::map<RobotId, std::size_t> last_;
 };
 
-constexpr Source all_sources[] = {
-    Source::gene_clock,       Source::gene_clock_no_merge, Source::timestamp,
-    Source::timestamp_drift,  Source::random_identifier,   Source::global_counter,
-    Source::congruence_class, Source::content_hash,        Source::hybrid_logical_clock};
-
 /// Real runs: short ones, with much structure and many crossovers.
 class ChronologyOfRunsTest : public testing::Test {
 protected:
@@ -392,7 +387,8 @@ TEST_F(ChronologyOfRunsTest, CountsAgreeWithSearchesInTheGraphOfAllEvents) {
     settings_.radio.loss = 0.4;
     for (const std::int64_t delay : {0, 3}) {
         settings_.radio.delay_cycles = delay;
-        for (const Source source : all_sources) {
+        for (const SourceDisplay& display : sources) {
+            const Source source = display.source;
             settings_.source = source;
             EventGraph graph;
             const ChronologyMeasures all =

@@ -142,9 +142,9 @@ TEST_F(SimulationTest, RefusesSettingsThatContradictEachOther) {
 TEST_F(SimulationTest, EverySourceWorksInEveryTask) {
     settings_.run.cycles = 1000;
     for (const Task task : {Task::navigation, Task::collection}) {
-        for (int source = 0; source <= static_cast<int>(Source::hybrid_logical_clock); ++source) {
+        for (const SourceDisplay& source : sources) {
             settings_.task = task;
-            settings_.source = static_cast<Source>(source);
+            settings_.source = source.source;
             EXPECT_EQ(run().robot_steps, 12'000u);
         }
     }
@@ -186,8 +186,8 @@ TEST_F(SimulationTest, EverySourceOutlivesRebootsInADebugBuildsAssertions) {
     settings_.run.cycles = 2000;
     settings_.odneat.p_mutate = settings_.odneat.p_mate = 0.9;
     settings_.reboot = {.probability = 0.005, .clock = RebootClock::lost};
-    for (int source = 0; source <= static_cast<int>(Source::hybrid_logical_clock); ++source) {
-        settings_.source = static_cast<Source>(source);
+    for (const SourceDisplay& source : sources) {
+        settings_.source = source.source;
         EXPECT_GT(run().counters.genes_created, 10u);
     }
 }

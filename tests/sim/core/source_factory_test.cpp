@@ -42,8 +42,8 @@ protected:
 };
 
 TEST_F(SourceFactoryTest, EverySourceMarksAboveTheGenesisMarks) {
-    for (int source = 0; source <= static_cast<int>(Source::hybrid_logical_clock); ++source) {
-        SourceFactory made = factory(static_cast<Source>(source));
+    for (const SourceDisplay& source : sources) {
+        SourceFactory made = factory(source.source);
         EXPECT_GT(first_counter(*made.make(RobotId{1})), genesis_marks);
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gene_clocks/neat/innovation_source.hpp>
+#include <gene_clocks/neat/source_parts.hpp>
 #include <limits>
 
 namespace gene_clocks::neat {
@@ -15,6 +16,8 @@ public:
         : next_(genesis_count + static_cast<std::uint64_t>(robot)),
           robots_(robots),
           robot_(robot) {}
+    explicit CongruenceClassSource(const SourceParts& parts)
+        : CongruenceClassSource(parts.robot, parts.robots, parts.genesis_count) {}
 
     std::optional<SplitMarks> mark_split(const Genome&, std::size_t, double) override {
         if ((largest - next_) / robots_ < 3) return std::nullopt;

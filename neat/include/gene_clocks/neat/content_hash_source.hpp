@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gene_clocks/neat/innovation_source.hpp>
+#include <gene_clocks/neat/source_parts.hpp>
 
 namespace gene_clocks::neat {
 
@@ -14,6 +15,7 @@ class ContentHashSource final : public InnovationSource {
 public:
     /// Hashes that fall on a genesis mark 1…genesis_count are drawn again.
     explicit ContentHashSource(std::uint64_t genesis_count) : genesis_count_(genesis_count) {}
+    explicit ContentHashSource(const SourceParts& parts) : ContentHashSource(parts.genesis_count) {}
 
     std::optional<SplitMarks> mark_split(const Genome& genome, std::size_t connection,
                                          double) override;

@@ -2,6 +2,7 @@
 
 #include <gene_clocks/gene_clock.hpp>
 #include <gene_clocks/neat/innovation_source.hpp>
+#include <gene_clocks/neat/source_parts.hpp>
 
 namespace gene_clocks::neat {
 
@@ -14,6 +15,8 @@ public:
     /// Preconditions: those of GeneClock.
     GeneClockSource(RobotId robot, std::uint64_t genesis_count, GeneClock::Limits limits = {})
         : clock_(robot, genesis_count, limits) {}
+    explicit GeneClockSource(const SourceParts& parts)
+        : GeneClockSource(parts.robot, parts.genesis_count) {}
 
     std::optional<SplitMarks> mark_split(const Genome&, std::size_t, double) override {
         return mint_split(clock_);

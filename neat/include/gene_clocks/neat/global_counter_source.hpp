@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gene_clocks/neat/innovation_source.hpp>
+#include <gene_clocks/neat/source_parts.hpp>
 #include <map>
 #include <memory>
 #include <tuple>
@@ -34,6 +35,7 @@ public:
     /// Precondition: the record is not null, and its user's genomes share its genesis marks.
     explicit GlobalCounterSource(std::shared_ptr<InnovationRecord> record)
         : record_(std::move(record)) {}
+    explicit GlobalCounterSource(const SourceParts& parts) : GlobalCounterSource(parts.record) {}
 
     std::optional<SplitMarks> mark_split(const Genome& genome, std::size_t connection,
                                          double) override {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <gene_clocks/neat/innovation_source.hpp>
-#include <gene_clocks/neat/local_time.hpp>
+#include <gene_clocks/neat/source_parts.hpp>
 
 namespace gene_clocks::neat {
 
@@ -17,6 +17,8 @@ public:
     /// Time starts above the genesis marks 1…genesis_count, for negative offsets too.
     HybridLogicalClockSource(RobotId robot, std::uint64_t genesis_count, LocalTime time)
         : time_(time), last_(genesis_count), robot_(robot) {}
+    explicit HybridLogicalClockSource(const SourceParts& parts)
+        : HybridLogicalClockSource(parts.robot, parts.genesis_count, parts.time) {}
 
     std::optional<SplitMarks> mark_split(const Genome&, std::size_t, double now_cycles) override {
         if (!advance(now_cycles, 3)) return std::nullopt;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gene_clocks/neat/innovation_source.hpp>
-#include <gene_clocks/neat/random.hpp>
+#include <gene_clocks/neat/source_parts.hpp>
 
 namespace gene_clocks::neat {
 
@@ -14,6 +14,8 @@ public:
     /// Identifiers begin above the genesis marks 1…genesis_count.
     RandomIdentifierSource(std::uint64_t genesis_count, RandomStream random)
         : genesis_count_(genesis_count), random_(random) {}
+    explicit RandomIdentifierSource(const SourceParts& parts)
+        : RandomIdentifierSource(parts.genesis_count, parts.random) {}
 
     /// nullopt where all identifiers are in the genome.
     std::optional<SplitMarks> mark_split(const Genome& genome, std::size_t connection,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gene_clocks/neat/innovation_source.hpp>
-#include <gene_clocks/neat/local_time.hpp>
+#include <gene_clocks/neat/source_parts.hpp>
 
 namespace gene_clocks::neat {
 
@@ -15,6 +15,8 @@ public:
     /// Time starts above the genesis marks 1…genesis_count, for negative offsets too.
     TimestampSource(RobotId robot, std::uint64_t genesis_count, LocalTime time)
         : time_(time), last_tick_(genesis_count), robot_(robot) {}
+    explicit TimestampSource(const SourceParts& parts)
+        : TimestampSource(parts.robot, parts.genesis_count, parts.time) {}
 
     std::optional<SplitMarks> mark_split(const Genome&, std::size_t, double now_cycles) override {
         const auto neuron = read(now_cycles);

@@ -2,24 +2,12 @@
 
 #include <cstdint>
 #include <gene_clocks/neat/settings.hpp>
+#include <gene_clocks/sim/source.hpp>
 #include <string>
 
 namespace gene_clocks::sim {
 
 enum class Task : std::uint8_t { navigation, collection };
-
-/// What marks new genes; each has a file of its own in neat/.
-enum class Source : std::uint8_t {
-    gene_clock,            ///< the paper's
-    gene_clock_no_merge,   ///< the same without the maximum on reception
-    timestamp,             ///< local clocks, perfect unless TimestampSettings say otherwise
-    timestamp_drift,       ///< local clocks that are off
-    random_identifier,     ///< IM-(mu+1)
-    global_counter,        ///< NEAT's
-    congruence_class,      ///< robot i of n marks i, i + n, …
-    content_hash,          ///< what is changed is the identity
-    hybrid_logical_clock,  ///< physical and logical time in one
-};
 
 /// What the two outputs of a controller mean.
 enum class Actuation : std::uint8_t {
