@@ -18,9 +18,9 @@ enum ExitStatus : int {
     interrupted = 130,  ///< by Ctrl-C or SIGTERM; finished runs are kept
 };
 
-/// Makes the runs of a study or a shard, as conduct() does; `threads` is 0 where the user gave
-/// none.
-using Conductor =
+/// Executes the runs of a study or a shard, as execute_study() does; `threads` is 0 where the user
+/// gave none.
+using StudyExecutor =
     std::function<int(const experiment::Study& study, const std::filesystem::path& store,
                       std::int64_t threads, const experiment::Shard& shard)>;
 
@@ -28,7 +28,7 @@ using Conductor =
 // throw experiment::InputError for bad input.
 void add_run_command(CLI::App& app, int& status);
 void add_replay_command(CLI::App& app, int& status);
-void add_study_command(CLI::App& app, int& status, Conductor conductor);
+void add_study_command(CLI::App& app, int& status, StudyExecutor executor);
 void add_report_command(CLI::App& app, int& status);
 void add_reproduce_command(CLI::App& app, int& status);
 void add_settings_command(CLI::App& app, int& status);

@@ -20,14 +20,15 @@ namespace gene_clocks::app {
 namespace {
 
 using experiment::KindSpeed;
+using experiment::PlannedRun;
 using experiment::RunKind;
 using experiment::Store;
 using experiment::Study;
-using experiment::Task;
 
-std::string steps_text(const std::vector<Task>& tasks) {
+std::string steps_text(const std::vector<PlannedRun>& planned_runs) {
     double steps = 0.0;
-    for (const Task& task : tasks) steps += static_cast<double>(task.robot_steps());
+    for (const PlannedRun& planned : planned_runs)
+        steps += static_cast<double>(planned.robot_steps());
     return fmt::format("{:.1f} M robot-steps", steps / 1e6);
 }
 
@@ -46,7 +47,7 @@ void print_arms(const Study& study) {
     }
 }
 
-void print_runs(const Study& study, const std::vector<Task>& all) {
+void print_runs(const Study& study, const std::vector<PlannedRun>& all) {
     const std::size_t runs = study.arms.size() * static_cast<std::size_t>(study.seeds);
     fmt::print("{} arms x {} seeds = {} runs", study.arms.size(), study.seeds, runs);
     if (all.size() != runs) fmt::print(", {} of them different", all.size());
@@ -55,23 +56,23 @@ void print_runs(const Study& study, const std::vector<Task>& all) {
 
 /// Tries out each kind of run of which no speed is known, some seconds long in all. Returns how
 /// many there were.
-std::size_t add_missing_speeds(const std::vector<Task>& tasks, std::int64_t threads,
+std::size_t add_missing_speeds(const std::vector<PlannedRun>& planned_runs, std::int64_t threads,
                                std::map<RunKind, KindSpeed>& speeds) {
-    std::map<RunKind, const Task*> missing;
-    for (const Task& task : tasks) {
-        const RunKind kind(*task.settings);
-        if (!speeds.contains(kind)) missing.emplace(kind, &task);
+    std::map<RunKind, const PlannedRun*> missing;
+    for (const PlannedRun& planned : planned_runs) {
+        const RunKind kind(*planned.settings);
+        if (!speeds.contains(kind)) missing.emplace(kind, &planned);
     }
     constexpr std::chrono::milliseconds most{400};
     constexpr std::chrono::milliseconds altogether{10'000};
-    for (const auto& [kind, task] : missing) {
+    for (const auto& [kind, planned] : missing) {
         const auto share = altogether / static_cast<std::int64_t>(missing.size());
-        speeds[kind] = experiment::try_out(*task, threads, std::min(most, share));
+        speeds[kind] = experiment::try_out(*planned, threads, std::min(most, share));
     }
     return missing.size();
 }
 
-void print_time(const Study& study, const std::vector<Task>& missing, const Store* store,
+void print_time(const Study& study, const std::vector<PlannedRun>& missing, const Store* store,
                 std::int64_t threads) {
     std::map<RunKind, KindSpeed> speeds;
     if (store != nullptr) {
@@ -100,23 +101,23 @@ int dry_run(const Study& study, const std::filesystem::path& file, std::int64_t 
     print_arms(study);
     print_runs(study, experiment::plan_runs(study));
 
-    std::vector<Task> tasks = experiment::plan_runs(study, shard);
+    std::vector<PlannedRun> planned_runs = experiment::plan_runs(study, shard);
     if (!shard.is_all()) {
-        fmt::print("shard {} of {}: {} runs, {}\n", shard.index, shard.count, tasks.size(),
-                   steps_text(tasks));
+        fmt::print("shard {} of {}: {} runs, {}\n", shard.index, shard.count, planned_runs.size(),
+                   steps_text(planned_runs));
     }
-    const std::size_t all = tasks.size();
+    const std::size_t all = planned_runs.size();
     if (store) {
         const auto finished = store->finished();
-        std::erase_if(tasks, [&](const Task& task) {
-            return finished.contains({task.settings_hash, task.seed});
+        std::erase_if(planned_runs, [&](const PlannedRun& planned) {
+            return finished.contains({planned.settings_hash, planned.seed});
         });
         fmt::print("{}: {} of {} runs are there already, {} are missing, {}\n", file.string(),
-                   all - tasks.size(), all, tasks.size(), steps_text(tasks));
+                   all - planned_runs.size(), all, planned_runs.size(), steps_text(planned_runs));
     } else {
         fmt::print("{}: is yet to be made\n", file.string());
     }
-    if (!tasks.empty()) print_time(study, tasks, store ? &*store : nullptr, threads);
+    if (!planned_runs.empty()) print_time(study, planned_runs, store ? &*store : nullptr, threads);
     return success;
 }
 

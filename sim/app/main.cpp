@@ -1,4 +1,4 @@
-#include "sim/app/conduct.hpp"
+#include "sim/app/execute_study.hpp"
 #include "sim/app/mpi_launch.hpp"
 #include "sim/app/program.hpp"
 
@@ -7,6 +7,6 @@ int main(int argc, char** argv) {
     if (is_study_under_mpirun(argc, argv)) return become_mpi_program(argv);
     return run_program(argc, argv,
                        [](const auto& study, const auto& store, auto threads, const auto& shard) {
-                           return conduct(study, store, threads, shard);
+                           return execute_study(study, store, threads, shard);
                        });
 }

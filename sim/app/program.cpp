@@ -41,7 +41,7 @@ std::string explain(const CLI::App& application, const CLI::ParseError& error) {
 
 }  // namespace
 
-int run_program(int argc, char** argv, const Conductor& conductor) {
+int run_program(int argc, char** argv, const StudyExecutor& executor) {
     int status = success;
     CLI::App application(
         "Gene Clocks: robot swarms that evolve neural networks with odNEAT, and the clocks that "
@@ -57,7 +57,7 @@ int run_program(int argc, char** argv, const Conductor& conductor) {
         "  gene-clocks COMMAND --help                    what a command can do\n");
     add_run_command(application, status);
     add_replay_command(application, status);
-    add_study_command(application, status, conductor);
+    add_study_command(application, status, executor);
     add_report_command(application, status);
     add_reproduce_command(application, status);
     add_settings_command(application, status);

@@ -139,15 +139,16 @@ int run(const ReplayOptions& options) {
                           std::uint64_t seed, sim::RunControl* control) {
         return sim::simulate_observed(run_settings, run_arena, seed, recorder, control);
     };
-    const experiment::Task task{&settings, &arena, options.seed,
-                                experiment::hash_of(experiment::canonical_text(settings, arena)),
-                                fmt::format("seed {}", options.seed)};
+    const experiment::PlannedRun planned{
+        &settings, &arena, options.seed,
+        experiment::hash_of(experiment::canonical_text(settings, arena)),
+        fmt::format("seed {}", options.seed)};
     const bool is_watched = isatty(STDERR_FILENO) != 0;
     experiment::Progress progress(is_watched ? stderr : nullptr);
     std::optional<sim::RunResult> result;
-    const auto outcome = experiment::make_runs(
-        {task}, runner, progress,
-        [&](const experiment::FinishedTask& finished) { result = finished.result; });
+    const auto outcome = experiment::execute_runs(
+        {planned}, runner, progress,
+        [&](const experiment::FinishedRun& finished) { result = finished.result; });
     if (outcome != experiment::Outcome::finished) {
         fmt::print(stderr, "Stopped before the end of the run.\n");
         return interrupted;

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "sim/app/commands.hpp"
-#include "sim/app/conduct.hpp"
+#include "sim/app/execute_study.hpp"
 #include "sim/app/study_options.hpp"
 #include "sim/app/study_report.hpp"
 #include "sim/report/page_program.hpp"
@@ -40,7 +40,8 @@ int run(const Options& options) {
     const auto store = std::filesystem::path(options.output) / (studies.front().name + ".sqlite");
     std::vector<std::string> names;
     for (const Study& study : studies) {
-        if (const int status = conduct(study, store, options.common.threads); status != success)
+        if (const int status = execute_study(study, store, options.common.threads);
+            status != success)
             return status;
         names.push_back(study.name);
     }

@@ -23,7 +23,7 @@
 namespace gene_clocks::app {
 namespace {
 
-using experiment::FinishedTask;
+using experiment::FinishedRun;
 using experiment::RunSummary;
 
 struct RunOptions {
@@ -38,8 +38,8 @@ double rate(const sim::RunResult& result) {
                                     : 0.0;
 }
 
-RunSummary summary_of(const FinishedTask& run) {
-    const sim::MeasureSettings& measures = run.task->settings->measures;
+RunSummary summary_of(const FinishedRun& run) {
+    const sim::MeasureSettings& measures = run.planned->settings->measures;
     return experiment::summarise(run.result.samples, measures,
                                  experiment::best_of_run(run.result.samples, measures));
 }
@@ -51,8 +51,8 @@ nlohmann::ordered_json to_json(const sim::ChronologyMeasures& measures) {
     return json;
 }
 
-nlohmann::ordered_json to_json(const RunOptions& options, const FinishedTask& run) {
-    const sim::Settings& settings = *run.task->settings;
+nlohmann::ordered_json to_json(const RunOptions& options, const FinishedRun& run) {
+    const sim::Settings& settings = *run.planned->settings;
     const sim::RunResult& result = run.result;
     const RunSummary summary = summary_of(run);
     nlohmann::ordered_json json = {
@@ -60,7 +60,7 @@ nlohmann::ordered_json to_json(const RunOptions& options, const FinishedTask& ru
         {"source", experiment::name_of(settings.source)},
         {"profile", options.selection.profile},
         {"parameters", experiment::parameter_set_of(options.selection.selection())},
-        {"seed", run.task->seed},
+        {"seed", run.planned->seed},
     };
     for (const experiment::Measure& measure : experiment::measures) {
         const auto value = measure.of(summary);
@@ -76,13 +76,13 @@ nlohmann::ordered_json to_json(const RunOptions& options, const FinishedTask& ru
         {"robot_steps", result.robot_steps},
         {"cpu_seconds", result.cpu_seconds},
         {"robot_steps_per_cpu_second", rate(result)},
-        {"settings_hash", run.task->settings_hash},
+        {"settings_hash", run.planned->settings_hash},
         {"program_version", experiment::program_version()},
     });
     return json;
 }
 
-void print_text(const FinishedTask& run) {
+void print_text(const FinishedRun& run) {
     const RunSummary summary = summary_of(run);
     const auto line = [](std::string_view name, const std::string& value,
                          std::string_view meaning) {
@@ -117,9 +117,10 @@ void print_text(const FinishedTask& run) {
 int run(const RunOptions& options) {
     const sim::Settings settings = options.selection.settings();
     const sim::Arena arena = experiment::find_arena(settings.world.arena);
-    const experiment::Task task{&settings, &arena, options.seed,
-                                experiment::hash_of(experiment::canonical_text(settings, arena)),
-                                fmt::format("seed {}", options.seed)};
+    const experiment::PlannedRun planned{
+        &settings, &arena, options.seed,
+        experiment::hash_of(experiment::canonical_text(settings, arena)),
+        fmt::format("seed {}", options.seed)};
 
     experiment::RunnerOptions runner;
     runner.stop = &watch_stop_signals();
@@ -131,7 +132,7 @@ int run(const RunOptions& options) {
     const bool is_watched = isatty(STDERR_FILENO) != 0;
     experiment::Progress progress(is_watched ? stderr : nullptr);
     const auto outcome =
-        experiment::make_runs({task}, runner, progress, [&](const FinishedTask& finished) {
+        experiment::execute_runs({planned}, runner, progress, [&](const FinishedRun& finished) {
             if (options.json) {
                 fmt::print("{}\n", to_json(options, finished).dump(2));
             } else {

@@ -33,18 +33,18 @@ std::string builtin_studies() {
     return text;
 }
 
-int run(const Options& options, const Conductor& conductor) {
+int run(const Options& options, const StudyExecutor& executor) {
     const auto document = experiment::find_document(experiment::Builtin::study, options.study);
     const Study study = experiment::read_study(document, options.common.study_options());
     const experiment::Shard shard = experiment::parse_shard(options.shard);
     const auto store = store_file(options.store, study, shard);
     if (options.dry_run) return dry_run(study, store, options.common.threads, shard);
-    return conductor(study, store, options.common.threads, shard);
+    return executor(study, store, options.common.threads, shard);
 }
 
 }  // namespace
 
-void add_study_command(CLI::App& app, int& status, Conductor conductor) {
+void add_study_command(CLI::App& app, int& status, StudyExecutor executor) {
     auto* command = app.add_subcommand(
         "study",
         "Make all runs of a study, or those that are still missing, and keep them in a store");
@@ -81,9 +81,8 @@ void add_study_command(CLI::App& app, int& status, Conductor conductor) {
         "  gene-clocks study my-study.toml --shard 2/4\n"
         "  mpirun -n 17 gene-clocks study my-study.toml    (16 runs at a time: where it was built "
         "with MPI)\n");
-    command->callback([options, &status, conductor = std::move(conductor)] {
-        status = run(*options, conductor);
-    });
+    command->callback(
+        [options, &status, executor = std::move(executor)] { status = run(*options, executor); });
 }
 
 }  // namespace gene_clocks::app

@@ -25,7 +25,7 @@ const InnovationNumber* find_split(const Topology& topology, InnovationNumber ne
 }  // namespace
 
 void GeneHistory::gene_marked(RobotId robot, InnovationNumber mark, double now_cycles) {
-    const auto next = static_cast<GeneIndex>(genes_.size());
+    const auto next = static_cast<GeneNumber>(genes_.size());
     const auto [known, is_new] = index_[mark.robot].try_emplace(mark.counter, next);
     if (!is_new) {
         Gene& gene = genes_[known->second];
@@ -47,13 +47,13 @@ void GeneHistory::gene_marked(RobotId robot, InnovationNumber mark, double now_c
 
 void GeneHistory::begin(const Topology& initial) {
     for (const neat::NeuronGene& neuron : initial.neurons) {
-        index_[neuron.mark.robot][neuron.mark.counter] = static_cast<GeneIndex>(genes_.size());
+        index_[neuron.mark.robot][neuron.mark.counter] = static_cast<GeneNumber>(genes_.size());
         genes_.emplace_back().mark = neuron.mark;
     }
     for (std::size_t i = 0; i < initial.connection_marks.size(); ++i) {
         const InnovationNumber mark = initial.connection_marks[i];
         const auto& ends = initial.connection_ends[i];
-        index_[mark.robot][mark.counter] = static_cast<GeneIndex>(genes_.size());
+        index_[mark.robot][mark.counter] = static_cast<GeneNumber>(genes_.size());
         Gene& gene = genes_.emplace_back();
         gene.mark = mark;
         gene.kind = GeneKind::connection;
@@ -67,9 +67,9 @@ void GeneHistory::begin(const Topology& initial) {
 std::size_t GeneHistory::find_gene_set(const std::shared_ptr<const Topology>& topology) {
     const auto [known, is_new] = known_topologies_.try_emplace(topology, 0);
     if (!is_new) return known->second;
-    std::vector<GeneIndex> genes;
+    std::vector<GeneNumber> genes;
     const auto add = [&](InnovationNumber mark) {
-        const GeneIndex index = index_.at(mark.robot).at(mark.counter);
+        const GeneNumber index = index_.at(mark.robot).at(mark.counter);
         if (index >= genesis_genes_) genes.push_back(index);
     };
     for (const neat::NeuronGene& neuron : topology->neurons) add(neuron.mark);
@@ -81,7 +81,7 @@ std::size_t GeneHistory::find_gene_set(const std::shared_ptr<const Topology>& to
     return place->second;
 }
 
-void GeneHistory::complete(GeneIndex index, const neat::Genome& genome, std::size_t gene_set) {
+void GeneHistory::complete(GeneNumber index, const neat::Genome& genome, std::size_t gene_set) {
     Gene& gene = genes_[index];
     const Topology& topology = *genome.topology;
     const auto& marks = topology.connection_marks;
@@ -120,7 +120,7 @@ void GeneHistory::between_cycles(const sim::SwarmView& swarm) {
         active_[i] = find_gene_set(genome.topology);
         activations_.push_back({swarm.cycle, static_cast<std::uint32_t>(i), active_[i]});
     }
-    for (const GeneIndex index : fresh_) {
+    for (const GeneNumber index : fresh_) {
         const auto robot = static_cast<std::size_t>(genes_[index].genome.robot) - 1;
         complete(index, swarm.agents[robot].active(), active_[robot]);
     }

@@ -14,7 +14,7 @@ namespace gene_clocks::replay {
 enum class GeneKind : std::uint8_t { neuron, connection, recurrent_connection };
 
 /// A gene, by its place in GeneHistory::genes().
-using GeneIndex = std::uint32_t;
+using GeneNumber = std::uint32_t;
 
 /// What became of one mark.
 struct Gene {
@@ -30,7 +30,7 @@ struct Gene {
     bool was_active = false;
     /// A connection: the neurons from and to which it leads. A hidden neuron: the connection that
     /// it splits. A genesis neuron: nothing.
-    std::vector<GeneIndex> builds_upon;
+    std::vector<GeneNumber> builds_upon;
     std::size_t gene_set = 0;  ///< of the genome that it was created in, itself included
 };
 
@@ -53,7 +53,7 @@ public:
     std::size_t genesis_genes() const { return genesis_genes_; }
 
     /// Sets of genes beyond the genesis ones, each sorted; no two alike. The first is empty.
-    const std::vector<std::vector<GeneIndex>>& gene_sets() const { return gene_sets_; }
+    const std::vector<std::vector<GeneNumber>>& gene_sets() const { return gene_sets_; }
 
     /// In the order of cycles; the first are those of the initial genomes, at cycle 0.
     const std::vector<Activation>& activations() const { return activations_; }
@@ -64,19 +64,19 @@ public:
 private:
     void begin(const neat::Topology& initial);
     std::size_t find_gene_set(const std::shared_ptr<const neat::Topology>& topology);
-    void complete(GeneIndex index, const neat::Genome& genome, std::size_t gene_set);
+    void complete(GeneNumber index, const neat::Genome& genome, std::size_t gene_set);
 
     std::vector<Gene> genes_;
     std::size_t genesis_genes_ = 0;
-    std::unordered_map<RobotId, std::unordered_map<std::uint64_t, GeneIndex>> index_;  // by mark
-    std::vector<std::vector<GeneIndex>> gene_sets_;
-    std::map<std::vector<GeneIndex>, std::size_t> gene_set_index_;
+    std::unordered_map<RobotId, std::unordered_map<std::uint64_t, GeneNumber>> index_;  // by mark
+    std::vector<std::vector<GeneNumber>> gene_sets_;
+    std::map<std::vector<GeneNumber>, std::size_t> gene_set_index_;
     // By address; the pointers keep the topologies, so that no address comes twice.
     std::unordered_map<std::shared_ptr<const neat::Topology>, std::size_t> known_topologies_;
     std::vector<Activation> activations_;
     std::vector<std::size_t> active_;      // one for each robot
     std::vector<neat::GenomeId> genomes_;  // the same
-    std::vector<GeneIndex> fresh_;         // created since the last look at the swarm
+    std::vector<GeneNumber> fresh_;         // created since the last look at the swarm
 };
 
 }  // namespace gene_clocks::replay

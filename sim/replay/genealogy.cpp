@@ -33,13 +33,13 @@ std::vector<FinalGene> genealogy(const GeneHistory& history) {
     const auto& genes = history.genes();
     std::vector<std::uint32_t> carriers(genes.size(), 0);
     for (const std::size_t set : history.active()) {
-        for (const GeneIndex gene : history.gene_sets()[set]) ++carriers[gene];
+        for (const GeneNumber gene : history.gene_sets()[set]) ++carriers[gene];
     }
     std::vector<FinalGene> result;
-    for (GeneIndex index = 0; index < genes.size(); ++index) {
+    for (GeneNumber index = 0; index < genes.size(); ++index) {
         if (carriers[index] == 0) continue;
         FinalGene final_gene{index, carriers[index], {}};
-        for (const GeneIndex other : history.gene_sets()[genes[index].gene_set]) {
+        for (const GeneNumber other : history.gene_sets()[genes[index].gene_set]) {
             // A split adds three genes to one genome; none of them came before the others.
             if (carriers[other] > 0 && genes[other].genome != genes[index].genome) {
                 if (other < index) final_gene.follows = other;  // ascending: the last is youngest
@@ -63,7 +63,7 @@ void write_genealogy_csv(const GeneHistory& history, std::ostream& out) {
     for (const FinalGene& final_gene : genealogy(history)) {
         const Gene& gene = genes[final_gene.gene];
         std::vector<std::string> builds_upon;
-        for (const GeneIndex base : gene.builds_upon) {
+        for (const GeneNumber base : gene.builds_upon) {
             builds_upon.push_back(text_of(genes[base].mark));
         }
         out << fmt::format(

@@ -67,8 +67,8 @@ std::string encode_gene_sets(const GeneHistory& history) {
     NumberStream stream;
     for (const auto& set : history.gene_sets()) {
         stream.put(set.size());
-        GeneIndex before = 0;
-        for (const GeneIndex gene : set) {
+        GeneNumber before = 0;
+        for (const GeneNumber gene : set) {
             stream.put(gene - before);
             before = gene;
         }

@@ -26,7 +26,7 @@ struct AssignedRun {
     }
     static AssignedRun of(std::span<const std::uint8_t> bytes) {
         AssignedRun run;
-        if (bytes.size() != sizeof run) throw std::runtime_error("a message that is no task");
+        if (bytes.size() != sizeof run) throw std::runtime_error("a message that assigns no run");
         std::memcpy(&run, bytes.data(), sizeof run);
         return run;
     }

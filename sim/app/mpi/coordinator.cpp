@@ -17,10 +17,10 @@
 namespace gene_clocks::app {
 namespace {
 
-using experiment::FinishedTask;
+using experiment::FinishedRun;
 using experiment::Outcome;
+using experiment::PlannedRun;
 using experiment::Study;
-using experiment::Task;
 using Clock = std::chrono::steady_clock;
 
 /// How long workers may take to say goodbye.
@@ -45,8 +45,8 @@ std::exception_ptr failure_of(const Message& message) {
 /// The runs that are being made.
 struct Coordinator::Job {
     const Study& study;
-    std::vector<Task> tasks;  ///< longest first
-    const std::function<void(const FinishedTask&)>& on_finished;
+    std::vector<PlannedRun> planned_runs;  ///< longest first
+    const std::function<void(const FinishedRun&)>& on_finished;
     std::size_t handed_out = 0;
     bool is_stopped = false;
     std::exception_ptr failure = nullptr;  ///< what is to be thrown once all workers have ended
@@ -58,15 +58,16 @@ Coordinator::Coordinator(Messenger& messenger, const std::atomic<bool>& stop)
     workers_[coordinator_rank].has_ended = true;
 }
 
-Outcome Coordinator::make_runs(const Study& study, std::vector<Task> tasks,
-                               experiment::Progress& progress,
-                               const std::function<void(const FinishedTask&)>& on_finished) {
-    experiment::sort_for_making(tasks);
-    Job job{study, std::move(tasks), on_finished};
-    job.state.runs_total = job.tasks.size();
-    for (const Task& task : job.tasks) job.state.robot_steps_total += task.robot_steps();
+Outcome Coordinator::execute_runs(const Study& study, std::vector<PlannedRun> planned_runs,
+                                  experiment::Progress& progress,
+                                  const std::function<void(const FinishedRun&)>& on_finished) {
+    experiment::sort_for_execution(planned_runs);
+    Job job{study, std::move(planned_runs), on_finished};
+    job.state.runs_total = job.planned_runs.size();
+    for (const PlannedRun& planned : job.planned_runs)
+        job.state.robot_steps_total += planned.robot_steps();
     tell_all(Topic::begin);
-    while (job.state.runs_finished < job.tasks.size() && !job.is_stopped) {
+    while (job.state.runs_finished < job.planned_runs.size() && !job.is_stopped) {
         if (stop_) job.is_stopped = true;
         if (const auto message = messenger_.receive()) {
             handle(job, *message);
@@ -78,7 +79,8 @@ Outcome Coordinator::make_runs(const Study& study, std::vector<Task> tasks,
     if (job.is_stopped) end_workers(&job);
     progress.finish(job.state);
     if (job.failure) std::rethrow_exception(job.failure);
-    return job.state.runs_finished == job.tasks.size() ? Outcome::finished : Outcome::stopped;
+    return job.state.runs_finished == job.planned_runs.size() ? Outcome::finished
+                                                              : Outcome::stopped;
 }
 
 void Coordinator::handle(Job& job, const Message& message) {
@@ -112,27 +114,27 @@ void Coordinator::handle(Job& job, const Message& message) {
 }
 
 void Coordinator::hand_out(Job& job, int rank) {
-    if (job.handed_out == job.tasks.size()) return;
-    const Task& task = job.tasks[job.handed_out];
+    if (job.handed_out == job.planned_runs.size()) return;
+    const PlannedRun& planned = job.planned_runs[job.handed_out];
     const auto arm = std::ranges::find_if(job.study.arms, [&](const experiment::Arm& each) {
-        return &each.settings == task.settings;
+        return &each.settings == planned.settings;
     });
-    const AssignedRun run{static_cast<std::uint64_t>(arm - job.study.arms.begin()), task.seed};
-    messenger_.send(rank, Topic::task, run.bytes());
-    workers_[static_cast<std::size_t>(rank)].task = job.handed_out++;
+    const AssignedRun run{static_cast<std::uint64_t>(arm - job.study.arms.begin()), planned.seed};
+    messenger_.send(rank, Topic::assignment, run.bytes());
+    workers_[static_cast<std::size_t>(rank)].assigned = job.handed_out++;
 }
 
 void Coordinator::keep(Job& job, const Message& message) {
     Worker& worker = workers_[static_cast<std::size_t>(message.sender)];
     experiment::RunMessage run = experiment::decode(message.content);
-    if (!worker.task) throw std::runtime_error("a worker sent a run that it was not to make");
-    const Task& task = job.tasks[*std::exchange(worker.task, std::nullopt)];
-    if (run.settings_hash != task.settings_hash || run.seed != task.seed) {
+    if (!worker.assigned) throw std::runtime_error("a worker sent a run that it was not to make");
+    const PlannedRun& planned = job.planned_runs[*std::exchange(worker.assigned, std::nullopt)];
+    if (run.settings_hash != planned.settings_hash || run.seed != planned.seed) {
         throw std::runtime_error("a worker made another run than it was to make");
     }
-    job.on_finished({&task, std::move(run.result), run.wall_seconds});
+    job.on_finished({&planned, std::move(run.result), run.wall_seconds});
     ++job.state.runs_finished;
-    job.state.robot_steps_done += task.robot_steps();
+    job.state.robot_steps_done += planned.robot_steps();
 }
 
 void Coordinator::tell_all(Topic topic) {

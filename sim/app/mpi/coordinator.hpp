@@ -20,21 +20,21 @@ public:
     Coordinator(const Coordinator&) = delete;
     Coordinator& operator=(const Coordinator&) = delete;
 
-    /// As experiment::make_runs, but by the workers. The tasks must be the study's.
-    experiment::Outcome make_runs(
-        const experiment::Study& study, std::vector<experiment::Task> tasks,
+    /// As experiment::execute_runs, but by the workers. They must be the study's.
+    experiment::Outcome execute_runs(
+        const experiment::Study& study, std::vector<experiment::PlannedRun> planned_runs,
         experiment::Progress& progress,
-        const std::function<void(const experiment::FinishedTask&)>& on_finished);
+        const std::function<void(const experiment::FinishedRun&)>& on_finished);
 
     /// Tells all workers to end, and waits until they have. False where some do not answer: then
     /// MPI cannot end in good order.
     bool end() { return end_workers(nullptr); }
 
 private:
-    /// Invariant: `task` is set only while the worker is ready or making that task.
+    /// Invariant: `assigned` is set only while the worker is ready or executes that run.
     struct Worker {
         bool has_ended = false;
-        std::optional<std::size_t> task;  ///< its position in the order of the tasks
+        std::optional<std::size_t> assigned;  ///< position of its run in the order of all
     };
     struct Job;
 

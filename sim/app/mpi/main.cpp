@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "sim/app/conduct.hpp"
+#include "sim/app/execute_study.hpp"
 #include "sim/app/mpi/coordinator.hpp"
 #include "sim/app/mpi/messenger.hpp"
 #include "sim/app/mpi/worker.hpp"
@@ -25,11 +25,11 @@ int coordinate(Messenger& messenger, int argc, char** argv) {
             if (threads != 0) {
                 throw InputError("--threads: under mpirun each process makes one run at a time");
             }
-            return conduct(study, store, shard,
-                           [&](auto tasks, const auto&, auto& progress, const auto& keep) {
-                               return coordinator.make_runs(study, std::move(tasks), progress,
-                                                            keep);
-                           });
+            return execute_study(
+                study, store, shard,
+                [&](auto planned_runs, const auto&, auto& progress, const auto& keep) {
+                    return coordinator.execute_runs(study, std::move(planned_runs), progress, keep);
+                });
         });
     // The store is closed. If a worker is gone, MPI itself would wait for it without end.
     if (!coordinator.end()) messenger.abort(status == success ? failure : status);

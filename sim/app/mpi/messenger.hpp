@@ -14,13 +14,13 @@ inline constexpr int coordinator_rank = 0;
 /// What a message between the coordinator and a worker means.
 enum class Topic : int {
     // From the coordinator.
-    begin,  ///< read the study, and say `ready`; empty
-    task,   ///< make this run: an AssignedRun
-    end,    ///< give up what is under way, and say `bye`; empty
+    begin,       ///< read the study, and say `ready`; empty
+    assignment,  ///< execute this run: an AssignedRun
+    end,         ///< give up what is under way, and say `bye`; empty
 
     // From a worker.
     ready,    ///< the fingerprint of the worker's study, which must be the coordinator's
-    result,   ///< of the task: encode(RunMessage)
+    result,   ///< of the assigned run: encode(RunMessage)
     gave_up,  ///< the worker was told by a signal to stop, and so must all; empty
     failed,   ///< something threw: an ExitStatus in one byte, then the message
     bye,      ///< the worker's last message; empty

@@ -66,26 +66,28 @@ private:
 };
 
 /// Makes one run. None where `stop` was set before its end.
-std::optional<RunMessage> make_run(const Study& study, const AssignedRun& assigned,
-                                   const std::atomic<bool>& stop) {
-    if (assigned.arm >= study.arms.size()) throw std::runtime_error("a message that is no task");
+std::optional<RunMessage> execute(const Study& study, const AssignedRun& assigned,
+                                  const std::atomic<bool>& stop) {
+    if (assigned.arm >= study.arms.size())
+        throw std::runtime_error("a message that assigns no run");
     const experiment::Arm& arm = study.arms[assigned.arm];
     experiment::RunnerOptions options;
     options.threads = 1;
     options.stop = &stop;
     experiment::Progress silent(nullptr);
     std::optional<RunMessage> made;
-    make_runs({experiment::task_of(arm, assigned.seed)}, options, silent,
-              [&](const experiment::FinishedTask& run) {
-                  made = {run.task->settings_hash, run.task->seed, run.result, run.wall_seconds};
-              });
+    execute_runs(
+        {experiment::planned_run(arm, assigned.seed)}, options, silent,
+        [&](const experiment::FinishedRun& run) {
+            made = {run.planned->settings_hash, run.planned->seed, run.result, run.wall_seconds};
+        });
     return made;
 }
 
-/// Makes the run of a task, meanwhile listening to the coordinator. False where that says to end.
+/// Executes an assigned run, meanwhile listening to the coordinator. False where that says to end.
 bool make_and_send(Worker& worker, const Study& study, const AssignedRun& assigned) {
     std::atomic<bool> stop{false};
-    auto made = std::async(std::launch::async, [&] { return make_run(study, assigned, stop); });
+    auto made = std::async(std::launch::async, [&] { return execute(study, assigned, stop); });
     while (made.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
         const auto message = worker.look();
         if (message && message->topic == Topic::end) {
@@ -119,7 +121,7 @@ void serve(Messenger& messenger, const Study& study, const std::atomic<bool>& st
     for (;;) {
         const Message message = worker.wait();
         if (message.topic == Topic::end) break;
-        if (message.topic != Topic::task) continue;
+        if (message.topic != Topic::assignment) continue;
         if (!make_and_send(worker, study, AssignedRun::of(message.content))) break;
     }
     worker.say(Topic::bye);

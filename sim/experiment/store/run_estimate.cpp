@@ -16,11 +16,11 @@ std::int64_t processors() {
     return std::max<std::int64_t>(1, std::thread::hardware_concurrency());
 }
 
-/// One thread's part in trying out a task.
+/// One thread's part in trying out a planned run.
 class Trial {
 public:
-    Trial(const Task& task, std::uint64_t seed, const RunFunction& simulate)
-        : task_(task), seed_(seed), simulate_(simulate), thread_([this] { work(); }) {}
+    Trial(const PlannedRun& planned, std::uint64_t seed, const RunFunction& simulate)
+        : planned_(planned), seed_(seed), simulate_(simulate), thread_([this] { work(); }) {}
 
     /// Ends it, and returns how many robot-steps it made. Throws what a run threw.
     std::uint64_t end() {
@@ -39,11 +39,11 @@ public:
 
 private:
     void work() {
-        const auto robots = static_cast<std::uint64_t>(task_.settings->world.robots);
+        const auto robots = static_cast<std::uint64_t>(planned_.settings->world.robots);
         try {
             for (; !stopped_; ++seed_) {
                 control_.cycles_done = 0;
-                simulate_(*task_.settings, *task_.arena, seed_, &control_);
+                simulate_(*planned_.settings, *planned_.arena, seed_, &control_);
                 steps_ += robots * static_cast<std::uint64_t>(control_.cycles_done.load());
             }
         } catch (...) {
@@ -51,7 +51,7 @@ private:
         }
     }
 
-    const Task& task_;
+    const PlannedRun& planned_;
     std::uint64_t seed_;
     const RunFunction& simulate_;
     sim::RunControl control_;
@@ -92,14 +92,14 @@ std::map<RunKind, KindSpeed> recorded_speeds(const Study& study,
     return speeds;
 }
 
-KindSpeed try_out(const Task& task, std::int64_t threads, std::chrono::milliseconds moment,
+KindSpeed try_out(const PlannedRun& planned, std::int64_t threads, std::chrono::milliseconds moment,
                   const RunFunction& simulate) {
     const auto start = Clock::now();
     std::vector<std::unique_ptr<Trial>> trials;
     for (std::int64_t i = 0; i < thread_count(threads); ++i) {
         // Seeds far from each other: no two threads make the same run.
-        const auto seed = task.seed + 1'000'000'000 * static_cast<std::uint64_t>(i);
-        trials.push_back(std::make_unique<Trial>(task, seed, simulate));
+        const auto seed = planned.seed + 1'000'000'000 * static_cast<std::uint64_t>(i);
+        trials.push_back(std::make_unique<Trial>(planned, seed, simulate));
     }
     std::this_thread::sleep_for(moment);
     std::uint64_t steps = 0;
@@ -108,15 +108,15 @@ KindSpeed try_out(const Task& task, std::int64_t threads, std::chrono::milliseco
     return {static_cast<double>(std::max<std::uint64_t>(steps, 1)) / elapsed.count(), 0};
 }
 
-std::chrono::seconds estimated_time(const std::vector<Task>& tasks,
+std::chrono::seconds estimated_time(const std::vector<PlannedRun>& planned_runs,
                                     const std::map<RunKind, KindSpeed>& speeds,
                                     std::int64_t threads) {
     const auto at_a_time = static_cast<double>(std::min(thread_count(threads), processors()));
     double shared_seconds = 0.0;
     double longest_seconds = 0.0;
-    for (const Task& task : tasks) {
-        const double seconds = static_cast<double>(task.robot_steps()) /
-                               speeds.at(RunKind(*task.settings)).robot_steps_per_second;
+    for (const PlannedRun& planned : planned_runs) {
+        const double seconds = static_cast<double>(planned.robot_steps()) /
+                               speeds.at(RunKind(*planned.settings)).robot_steps_per_second;
         shared_seconds += seconds;
         longest_seconds = std::max(longest_seconds, seconds * at_a_time);
     }

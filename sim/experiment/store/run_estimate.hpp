@@ -40,12 +40,12 @@ std::map<RunKind, KindSpeed> recorded_speeds(const Study& study,
 
 /// Makes runs on all threads for a moment, and measures how fast they go. A run that ends before
 /// then is begun anew with another seed. What the simulator throws is thrown on.
-KindSpeed try_out(const Task& task, std::int64_t threads, std::chrono::milliseconds moment,
+KindSpeed try_out(const PlannedRun& planned, std::int64_t threads, std::chrono::milliseconds moment,
                   const RunFunction& simulate = sim::simulate);
 
-/// How long it takes to make the tasks on so many threads, each kind of which must have a speed:
-/// as long as all of them shared out evenly, but no shorter than the longest of them.
-std::chrono::seconds estimated_time(const std::vector<Task>& tasks,
+/// How long it takes to execute planned runs on so many threads, each kind of which must have a
+/// speed: as long as all of them shared out evenly, but no shorter than the longest of them.
+std::chrono::seconds estimated_time(const std::vector<PlannedRun>& planned_runs,
                                     const std::map<RunKind, KindSpeed>& speeds,
                                     std::int64_t threads);
 

@@ -36,13 +36,13 @@ Shard parse_shard(const std::string& text) {
                     text, shards_maximum));
 }
 
-Task task_of(const Arm& arm, std::uint64_t seed) {
+PlannedRun planned_run(const Arm& arm, std::uint64_t seed) {
     return {&arm.settings, &arm.arena, seed, arm.settings_hash,
             fmt::format("arm {}, seed {}", arm.name, seed)};
 }
 
-std::vector<Task> plan_runs(const Study& study, const Shard& shard) {
-    std::vector<Task> tasks;
+std::vector<PlannedRun> plan_runs(const Study& study, const Shard& shard) {
+    std::vector<PlannedRun> planned_runs;
     std::set<std::string> planned;
     // Arm by arm, so that dealing the runs out in turn deals out each arm's evenly.
     std::int64_t position = 0;
@@ -50,10 +50,11 @@ std::vector<Task> plan_runs(const Study& study, const Shard& shard) {
         if (!planned.insert(arm.settings_hash).second) continue;
         for (std::int64_t i = 0; i < study.seeds; ++i) {
             if (position++ % shard.count != shard.index - 1) continue;
-            tasks.push_back(task_of(arm, study.first_seed + static_cast<std::uint64_t>(i)));
+            planned_runs.push_back(
+                planned_run(arm, study.first_seed + static_cast<std::uint64_t>(i)));
         }
     }
-    return tasks;
+    return planned_runs;
 }
 
 }  // namespace gene_clocks::experiment

@@ -23,15 +23,15 @@ inline constexpr std::int64_t shards_maximum = 1'000'000;
 /// The shard that "2/4" means: the second of four. Throws InputError where a text means none.
 Shard parse_shard(const std::string& text);
 
-/// The run of an arm with that seed. The task refers to the arm.
-Task task_of(const Arm& arm, std::uint64_t seed);
+/// The run of an arm with that seed. It refers to the arm.
+PlannedRun planned_run(const Arm& arm, std::uint64_t seed);
 
 /// The runs of a study, or of one shard of it, each once: two arms with the same settings share
-/// their runs. The tasks refer to the study, which must outlive them.
+/// their runs. They refer to the study, which must outlive them.
 ///
 /// The shards of a study have no run in common and together have them all. Of each arm, and so of
 /// all runs, every shard has as many as any other, or one more or less. Which run belongs to which
 /// shard depends on the study and the number of shards alone.
-std::vector<Task> plan_runs(const Study& study, const Shard& shard = {});
+std::vector<PlannedRun> plan_runs(const Study& study, const Shard& shard = {});
 
 }  // namespace gene_clocks::experiment

@@ -12,12 +12,12 @@
 
 namespace gene_clocks::experiment {
 
-/// Makes one run; sim::simulate, or a stand-in in tests. Called from several threads at once.
+/// Executes one run; sim::simulate, or a stand-in in tests. Called from several threads at once.
 using RunFunction = std::function<std::optional<sim::RunResult>(
     const sim::Settings&, const sim::Arena&, std::uint64_t seed, sim::RunControl*)>;
 
-/// A run that is to be made.
-struct Task {
+/// A run that is to be executed.
+struct PlannedRun {
     const sim::Settings* settings = nullptr;  ///< never null; must outlive the runner
     const sim::Arena* arena = nullptr;        ///< never null; must outlive the runner
     std::uint64_t seed{};
@@ -29,9 +29,9 @@ struct Task {
     }
 };
 
-/// A run that was made.
-struct FinishedTask {
-    const Task* task = nullptr;
+/// A run that was executed.
+struct FinishedRun {
+    const PlannedRun* planned = nullptr;
     sim::RunResult result;
     double wall_seconds{};
 };
@@ -44,18 +44,19 @@ struct RunnerOptions {
 
 enum class Outcome { finished, stopped };
 
-/// Sorts tasks into the order in which they are best begun: longest first, so that none is left
+/// Sorts runs into the order in which they are best begun: longest first, so that none is left
 /// alone with a long run at the end; else seed by seed, so that a study that is stopped has
 /// compared its arms on the same seeds.
-void sort_for_making(std::vector<Task>& tasks);
+void sort_for_execution(std::vector<PlannedRun>& planned_runs);
 
-/// Makes all runs, longest first, each on one thread, and calls `on_finished` from the calling
-/// thread with each as soon as it is made. When `stop` is set, or `on_finished` throws, runs under
-/// way are given up; those already made are still handed over.
+/// Executes all runs, longest first, each on one thread, and calls `on_finished` from the calling
+/// thread with each as soon as it is finished. When `stop` is set, or `on_finished` throws, runs
+/// under way are given up; those already finished are still handed over.
 ///
 /// What a run throws is thrown on, with the run's name before its message: InputError for
 /// settings or an arena that the simulator refuses, std::runtime_error for all else.
-Outcome make_runs(std::vector<Task> tasks, const RunnerOptions& options, Progress& progress,
-                  const std::function<void(const FinishedTask&)>& on_finished);
+Outcome execute_runs(std::vector<PlannedRun> planned_runs, const RunnerOptions& options,
+                     Progress& progress,
+                     const std::function<void(const FinishedRun&)>& on_finished);
 
 }  // namespace gene_clocks::experiment

@@ -62,10 +62,10 @@ TEST(RunEstimate, TimeIsThatOfAllRunsAtTheirSpeedsButNoLessThanThatOfTheLongest)
     study.arms[1].settings.run.cycles = 1000;
     const std::map<RunKind, KindSpeed> speeds = {{RunKind(study.arms[0].settings), {1000.0, 0}},
                                                  {RunKind(study.arms[1].settings), {500.0, 0}}};
-    const auto tasks = plan_runs(study);
-    EXPECT_EQ(estimated_time(tasks, speeds, 1).count(), 4 * 10 + 4 * 40);
+    const auto planned_runs = plan_runs(study);
+    EXPECT_EQ(estimated_time(planned_runs, speeds, 1).count(), 4 * 10 + 4 * 40);
     EXPECT_EQ(estimated_time({}, speeds, 1).count(), 0);
-    const std::vector<Task> one{tasks.back()};
+    const std::vector<PlannedRun> one{planned_runs.back()};
     EXPECT_EQ(estimated_time(one, speeds, 1).count(), 40);
     // 500 is what all threads make together: of one run, only one thread's part.
     EXPECT_EQ(estimated_time(one, speeds, 0).count(), 40 * thread_count(0));
@@ -73,13 +73,13 @@ TEST(RunEstimate, TimeIsThatOfAllRunsAtTheirSpeedsButNoLessThanThatOfTheLongest)
 
 TEST(TryOut, RunsOnAllThreadsAtOnceWithSeedsOfTheirOwn) {
     const Study study = example_study();
-    const auto tasks = plan_runs(study);
+    const auto planned_runs = plan_runs(study);
     constexpr int threads = 3;
     std::mutex mutex;
     std::set<std::uint64_t> seeds;
     std::atomic<int> running{0};
     const KindSpeed speed =
-        try_out(tasks[0], threads, std::chrono::milliseconds(20),
+        try_out(planned_runs[0], threads, std::chrono::milliseconds(20),
                 [&](const auto&, const auto&, std::uint64_t seed, sim::RunControl* control) {
                     {
                         const std::scoped_lock lock(mutex);
@@ -98,22 +98,22 @@ TEST(TryOut, RunsOnAllThreadsAtOnceWithSeedsOfTheirOwn) {
 
 TEST(TryOut, BeginsShortRunsAnewWithOtherSeeds) {
     const Study study = example_study();
-    const auto tasks = plan_runs(study);
+    const auto planned_runs = plan_runs(study);
     std::set<std::uint64_t> seeds;
-    try_out(tasks[0], 1, std::chrono::milliseconds(1),
+    try_out(planned_runs[0], 1, std::chrono::milliseconds(1),
             [&](const auto&, const auto&, std::uint64_t seed, sim::RunControl* control) {
                 EXPECT_TRUE(seeds.insert(seed).second);
                 while (seeds.size() >= 3 && !control->stop) std::this_thread::yield();
                 return std::optional(sim::RunResult{});
             });
     ASSERT_FALSE(seeds.empty());
-    EXPECT_EQ(*seeds.begin(), tasks[0].seed);
+    EXPECT_EQ(*seeds.begin(), planned_runs[0].seed);
 }
 
 TEST(TryOut, ThrowsOnWhatARunThrows) {
     const Study study = example_study();
-    const auto tasks = plan_runs(study);
-    EXPECT_THROW(try_out(tasks[0], 2, std::chrono::milliseconds(1),
+    const auto planned_runs = plan_runs(study);
+    EXPECT_THROW(try_out(planned_runs[0], 2, std::chrono::milliseconds(1),
                          [](const auto&, const auto&, std::uint64_t,
                             auto*) -> std::optional<sim::RunResult> {
                              throw std::runtime_error("no free place");

@@ -17,23 +17,23 @@ namespace {
 using test::example_study;
 using test::input_error;
 
-std::set<RunKey> keys(const std::vector<Task>& tasks) {
+std::set<RunKey> keys(const std::vector<PlannedRun>& planned_runs) {
     std::set<RunKey> all;
-    for (const Task& task : tasks) all.emplace(task.settings_hash, task.seed);
+    for (const PlannedRun& planned : planned_runs) all.emplace(planned.settings_hash, planned.seed);
     return all;
 }
 
 TEST(RunPlan, HasEveryArmWithEverySeed) {
     const Study study = example_study();
-    const auto tasks = plan_runs(study);
-    ASSERT_EQ(tasks.size(), 10U);
+    const auto planned_runs = plan_runs(study);
+    ASSERT_EQ(planned_runs.size(), 10U);
     std::set<RunKey> expected;
     for (const Arm& arm : study.arms) {
         for (std::uint64_t seed = 3; seed < 8; ++seed) expected.emplace(arm.settings_hash, seed);
     }
-    EXPECT_EQ(keys(tasks), expected);
-    EXPECT_EQ(tasks.front().settings, &study.arms[0].settings);
-    EXPECT_EQ(tasks.front().name, "arm one, seed 3");
+    EXPECT_EQ(keys(planned_runs), expected);
+    EXPECT_EQ(planned_runs.front().settings, &study.arms[0].settings);
+    EXPECT_EQ(planned_runs.front().name, "arm one, seed 3");
 }
 
 TEST(RunPlan, ArmsWithTheSameSettingsShareTheirRuns) {
@@ -65,13 +65,13 @@ RC_GTEST_PROP(Shards, AreDisjointAndCoverAllAndAreBalancedOverArms, ()) {
     std::vector<std::size_t> sizes;
     std::map<std::string, std::vector<std::int64_t>> of_arm;
     for (std::int64_t index = 1; index <= count; ++index) {
-        const auto tasks = plan_runs(study, {index, count});
-        RC_ASSERT(keys(plan_runs(study, {index, count})) == keys(tasks));
-        sizes.push_back(tasks.size());
+        const auto planned_runs = plan_runs(study, {index, count});
+        RC_ASSERT(keys(plan_runs(study, {index, count})) == keys(planned_runs));
+        sizes.push_back(planned_runs.size());
         for (auto& [hash, counts] : of_arm) counts.push_back(0);
-        for (const Task& task : tasks) {
-            RC_ASSERT(seen.emplace(task.settings_hash, task.seed).second);
-            auto& counts = of_arm[task.settings_hash];
+        for (const PlannedRun& planned : planned_runs) {
+            RC_ASSERT(seen.emplace(planned.settings_hash, planned.seed).second);
+            auto& counts = of_arm[planned.settings_hash];
             counts.resize(static_cast<std::size_t>(index));
             ++counts.back();
         }

@@ -18,9 +18,9 @@ using test::input_error;
 
 class RunnerTest : public testing::Test {
 protected:
-    /// Tasks with seeds 1 to `count`, each of so many cycles.
-    std::vector<Task> tasks(std::size_t count) {
-        std::vector<Task> all;
+    /// Runs with seeds 1 to `count`, each of so many cycles.
+    std::vector<PlannedRun> planned_runs(std::size_t count) {
+        std::vector<PlannedRun> all;
         for (std::size_t i = 0; i < count; ++i) {
             all.push_back({&settings, &arena, i + 1, "hash", "seed " + std::to_string(i + 1)});
         }
@@ -31,11 +31,11 @@ protected:
         result.trajectory_hash = seed * seed;
         return result;
     }
-    Outcome make(std::vector<Task> all, const RunnerOptions& options) {
-        return make_runs(std::move(all), options, silent, [this](const FinishedTask& run) {
+    Outcome execute(std::vector<PlannedRun> all, const RunnerOptions& options) {
+        return execute_runs(std::move(all), options, silent, [this](const FinishedRun& run) {
             EXPECT_EQ(std::this_thread::get_id(), test_thread);
-            EXPECT_EQ(run.result.trajectory_hash, run.task->seed * run.task->seed);
-            finished.push_back(run.task->seed);
+            EXPECT_EQ(run.result.trajectory_hash, run.planned->seed * run.planned->seed);
+            finished.push_back(run.planned->seed);
         });
     }
     sim::Settings settings;
@@ -52,14 +52,14 @@ TEST_F(RunnerTest, MakesEveryRunOnce) {
         options.simulate = [](const auto&, const auto&, std::uint64_t seed, auto*) {
             return std::optional(result_of(seed));
         };
-        EXPECT_EQ(make(tasks(50), options), Outcome::finished);
+        EXPECT_EQ(execute(planned_runs(50), options), Outcome::finished);
         EXPECT_EQ(finished.size(), 50U);
         EXPECT_EQ(std::set(finished.begin(), finished.end()).size(), 50U);
     }
 }
 
 TEST_F(RunnerTest, NothingToDoIsFinished) {
-    EXPECT_EQ(make({}, {}), Outcome::finished);
+    EXPECT_EQ(execute({}, {}), Outcome::finished);
 }
 
 TEST_F(RunnerTest, UsesSoManyThreads) {
@@ -72,13 +72,13 @@ TEST_F(RunnerTest, UsesSoManyThreads) {
         while (running < threads) std::this_thread::yield();
         return std::optional(result_of(seed));
     };
-    EXPECT_EQ(make(tasks(threads), options), Outcome::finished);
+    EXPECT_EQ(execute(planned_runs(threads), options), Outcome::finished);
 }
 
 TEST_F(RunnerTest, MakesLongRunsFirstAndElseGoesSeedBySeed) {
     sim::Settings longer;
     longer.run.cycles = settings.run.cycles + 1;
-    auto all = tasks(4);
+    auto all = planned_runs(4);
     all[2].settings = &longer;
     all[3].seed = 1;
     all[3].settings_hash = "another arm";
@@ -87,8 +87,8 @@ TEST_F(RunnerTest, MakesLongRunsFirstAndElseGoesSeedBySeed) {
     options.simulate = [](const auto&, const auto&, std::uint64_t seed, auto*) {
         return std::optional(result_of(seed));
     };
-    make_runs(all, options, silent, [&](const FinishedTask& run) {
-        order.emplace_back(run.task->settings_hash, run.task->seed);
+    execute_runs(all, options, silent, [&](const FinishedRun& run) {
+        order.emplace_back(run.planned->settings_hash, run.planned->seed);
     });
     using Key = std::pair<std::string, std::uint64_t>;
     EXPECT_THAT(order, testing::ElementsAre(Key{"hash", 3}, Key{"another arm", 1}, Key{"hash", 1},
@@ -105,7 +105,7 @@ TEST_F(RunnerTest, StopsRunsUnderWayAndKeepsFinishedOnes) {
         while (!control->stop) std::this_thread::yield();
         return std::nullopt;
     };
-    EXPECT_EQ(make(tasks(100), options), Outcome::stopped);
+    EXPECT_EQ(execute(planned_runs(100), options), Outcome::stopped);
     EXPECT_THAT(finished, testing::UnorderedElementsAre(1, 2, 3, 4));
 }
 
@@ -116,7 +116,7 @@ TEST_F(RunnerTest, ThrowsOnWhatARunThrewWithItsName) {
             if (seed == 3) throw std::runtime_error("no free place");
             return std::optional(result_of(seed));
         };
-        EXPECT_EQ(input_error([&] { make(tasks(9), options); }), "seed 3: no free place");
+        EXPECT_EQ(input_error([&] { execute(planned_runs(9), options); }), "seed 3: no free place");
     }
 }
 
@@ -127,7 +127,7 @@ TEST_F(RunnerTest, IsAFailureOfTheProgramWhereARunBreaksAnInvariant) {
         throw std::logic_error("broken");
     };
     try {
-        make(tasks(1), options);
+        execute(planned_runs(1), options);
         FAIL();
     } catch (const InputError&) {
         FAIL() << "not the user's fault";
@@ -141,8 +141,8 @@ TEST_F(RunnerTest, EndsItsThreadsWhenTheResultCannotBeKept) {
     options.simulate = [](const auto&, const auto&, std::uint64_t seed, auto*) {
         return std::optional(result_of(seed));
     };
-    const auto full_disk = [](const FinishedTask&) { throw std::runtime_error("disk full"); };
-    EXPECT_THROW(make_runs(tasks(50), options, silent, full_disk), std::runtime_error);
+    const auto full_disk = [](const FinishedRun&) { throw std::runtime_error("disk full"); };
+    EXPECT_THROW(execute_runs(planned_runs(50), options, silent, full_disk), std::runtime_error);
 }
 
 TEST_F(RunnerTest, GivesTheSameResultsWithAnyNumberOfThreads) {
@@ -151,8 +151,8 @@ TEST_F(RunnerTest, GivesTheSameResultsWithAnyNumberOfThreads) {
     arena = {"box", 100, 100, 5, 5, 5, 5, {}};
     const auto hashes = [&](std::int64_t threads) {
         std::map<std::uint64_t, std::uint64_t> by_seed;
-        make_runs(tasks(6), {.threads = threads}, silent, [&](const FinishedTask& run) {
-            by_seed[run.task->seed] = run.result.trajectory_hash;
+        execute_runs(planned_runs(6), {.threads = threads}, silent, [&](const FinishedRun& run) {
+            by_seed[run.planned->seed] = run.result.trajectory_hash;
         });
         return by_seed;
     };

@@ -1,4 +1,4 @@
-#include "sim/app/conduct.hpp"
+#include "sim/app/execute_study.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -19,17 +19,17 @@
 namespace gene_clocks::app {
 namespace {
 
+using experiment::PlannedRun;
 using experiment::Store;
 using experiment::Study;
-using experiment::Task;
 
 std::string utc_now() {
     const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
 }
 
-void say_what_is_there(const Store& store, const std::filesystem::path& file, std::size_t all,
-                       std::size_t missing) {
+void report_stored_runs(const Store& store, const std::filesystem::path& file, std::size_t all,
+                        std::size_t missing) {
     if (!store.new_keys().empty()) {
         fmt::print(
             stderr,
@@ -47,8 +47,8 @@ void say_what_is_there(const Store& store, const std::filesystem::path& file, st
     }
 }
 
-void say_what_will_be_gone(const Store& store, const Study& study,
-                           const std::filesystem::path& file) {
+void report_superseded_arms(const Store& store, const Study& study,
+                            const std::filesystem::path& file) {
     for (const experiment::StoredStudy& known : store.studies()) {
         if (known.name != study.name) continue;
         const auto is_gone = [&](const experiment::StoredArm& arm) {
@@ -77,32 +77,32 @@ void make_folder_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-int conduct(const Study& study, const std::filesystem::path& file, const experiment::Shard& shard,
-            const RunMaker& make_runs) {
+int execute_study(const Study& study, const std::filesystem::path& file,
+                  const experiment::Shard& shard, const RunExecutor& execute_runs) {
     experiment::rehearse(study);
     const auto& stop = watch_stop_signals();
     make_folder_of(file);
     Store store = Store::open_for_writing(file);
-    say_what_will_be_gone(store, study, file);
+    report_superseded_arms(store, study, file);
     store.put_study(study);
 
-    std::vector<Task> tasks = experiment::plan_runs(study, shard);
-    const std::size_t all = tasks.size();
+    std::vector<PlannedRun> planned_runs = experiment::plan_runs(study, shard);
+    const std::size_t all = planned_runs.size();
     const auto finished = store.finished();
-    std::erase_if(tasks, [&](const Task& task) {
-        return finished.contains({task.settings_hash, task.seed});
+    std::erase_if(planned_runs, [&](const PlannedRun& planned) {
+        return finished.contains({planned.settings_hash, planned.seed});
     });
-    std::size_t kept = all - tasks.size();
-    say_what_is_there(store, file, all, tasks.size());
-    if (tasks.empty()) return success;
+    std::size_t kept = all - planned_runs.size();
+    report_stored_runs(store, file, all, planned_runs.size());
+    if (planned_runs.empty()) return success;
 
-    fmt::print(stderr, "{}: making {} runs\n", study.name, tasks.size());
+    fmt::print(stderr, "{}: making {} runs\n", study.name, planned_runs.size());
     experiment::Outcome outcome{};
     {
         experiment::Progress progress(stderr);
-        outcome =
-            make_runs(std::move(tasks), stop, progress, [&](const experiment::FinishedTask& run) {
-                store.put_run({run.task->settings_hash, run.task->seed, run.result,
+        outcome = execute_runs(
+            std::move(planned_runs), stop, progress, [&](const experiment::FinishedRun& run) {
+                store.put_run({run.planned->settings_hash, run.planned->seed, run.result,
                                run.wall_seconds, utc_now(), experiment::program_version()});
                 ++kept;
             });
@@ -117,17 +117,18 @@ int conduct(const Study& study, const std::filesystem::path& file, const experim
     return interrupted;
 }
 
-int conduct(const Study& study, const std::filesystem::path& file, std::int64_t threads,
-            const experiment::Shard& shard) {
-    return conduct(study, file, shard,
-                   [threads](std::vector<Task> tasks, const std::atomic<bool>& stop,
-                             experiment::Progress& progress, const auto& on_finished) {
-                       experiment::RunnerOptions options;
-                       options.threads = threads;
-                       options.stop = &stop;
-                       return experiment::make_runs(std::move(tasks), options, progress,
-                                                    on_finished);
-                   });
+int execute_study(const Study& study, const std::filesystem::path& file, std::int64_t threads,
+                  const experiment::Shard& shard) {
+    return execute_study(
+        study, file, shard,
+        [threads](std::vector<PlannedRun> planned_runs, const std::atomic<bool>& stop,
+                  experiment::Progress& progress, const auto& on_finished) {
+            experiment::RunnerOptions options;
+            options.threads = threads;
+            options.stop = &stop;
+            return experiment::execute_runs(std::move(planned_runs), options, progress,
+                                            on_finished);
+        });
 }
 
 }  // namespace gene_clocks::app
