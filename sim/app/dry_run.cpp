@@ -82,7 +82,7 @@ void print_time(const Study& study, const std::vector<PlannedRun>& missing, cons
     for (const auto& [kind, speed] : speeds) runs += speed.runs;
     const std::size_t tried = add_missing_speeds(missing, threads, speeds);
     std::vector<std::string> grounds;
-    if (runs > 0) grounds.push_back(fmt::format("the {} runs that are there", runs));
+    if (runs > 0) grounds.push_back(fmt::format("the {} runs in the store", runs));
     if (tried > 0) grounds.emplace_back("trying out the beginning of some runs");
     const auto time = experiment::estimated_time(missing, speeds, threads);
     const std::int64_t count = experiment::thread_count(threads);
@@ -112,10 +112,10 @@ int dry_run(const Study& study, const std::filesystem::path& file, std::int64_t 
         std::erase_if(planned_runs, [&](const PlannedRun& planned) {
             return finished.contains({planned.settings_hash, planned.seed});
         });
-        fmt::print("{}: {} of {} runs are there already, {} are missing, {}\n", file.string(),
+        fmt::print("{}: {} of {} runs are finished, {} are missing, {}\n", file.string(),
                    all - planned_runs.size(), all, planned_runs.size(), steps_text(planned_runs));
     } else {
-        fmt::print("{}: is yet to be made\n", file.string());
+        fmt::print("{}: does not exist yet; the study will create it\n", file.string());
     }
     if (!planned_runs.empty()) print_time(study, planned_runs, store ? &*store : nullptr, threads);
     return success;

@@ -38,11 +38,12 @@ void report_stored_runs(const Store& store, const std::filesystem::path& file, s
             file.string(), experiment::list_of(store.new_keys()));
     }
     if (missing < all) {
-        fmt::print(stderr, "{}: {} of {} runs are there already\n", file.string(), all - missing,
+        fmt::print(stderr, "{}: {} of {} runs are finished already\n", file.string(), all - missing,
                    all);
     }
     if (const auto others = store.runs_of_other_versions(); others > 0) {
-        fmt::print(stderr, "{}: {} runs were made by another version of gene-clocks; this is {}\n",
+        fmt::print(stderr,
+                   "{}: {} runs were executed by another version of gene-clocks; this is {}\n",
                    file.string(), others, experiment::program_version());
     }
 }
@@ -69,7 +70,7 @@ void make_folder_of(const std::filesystem::path& file) {
     std::error_code error;
     std::filesystem::create_directories(file.parent_path(), error);
     if (error) {
-        throw experiment::InputError(fmt::format("{}: the folder {} cannot be made: {}",
+        throw experiment::InputError(fmt::format("{}: the folder {} cannot be created: {}",
                                                  file.string(), file.parent_path().string(),
                                                  error.message()));
     }
@@ -96,7 +97,7 @@ int execute_study(const Study& study, const std::filesystem::path& file,
     report_stored_runs(store, file, all, planned_runs.size());
     if (planned_runs.empty()) return success;
 
-    fmt::print(stderr, "{}: making {} runs\n", study.name, planned_runs.size());
+    fmt::print(stderr, "{}: executing {} runs\n", study.name, planned_runs.size());
     experiment::Outcome outcome{};
     {
         experiment::Progress progress(stderr);
@@ -108,7 +109,7 @@ int execute_study(const Study& study, const std::filesystem::path& file,
             });
     }
     if (outcome == experiment::Outcome::finished) {
-        fmt::print(stderr, "{}: all {} runs are there\n", file.string(), all);
+        fmt::print(stderr, "{}: all {} runs are finished\n", file.string(), all);
         return success;
     }
     fmt::print(stderr,

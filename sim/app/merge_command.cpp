@@ -19,11 +19,11 @@ struct Options {
 int run(const Options& options) {
     const auto result =
         experiment::merge_stores(options.out, {options.in.begin(), options.in.end()});
-    fmt::print(stderr, "{}: {} runs were added, {} are there now\n", options.out, result.runs_added,
+    fmt::print(stderr, "{}: {} runs were added; it holds {} now\n", options.out, result.runs_added,
                result.runs_in_all);
     if (result.runs_of_other_versions > 0) {
-        fmt::print(stderr, "{}: {} runs were made by another version of gene-clocks\n", options.out,
-                   result.runs_of_other_versions);
+        fmt::print(stderr, "{}: {} runs were executed by another version of gene-clocks\n",
+                   options.out, result.runs_of_other_versions);
     }
     return success;
 }

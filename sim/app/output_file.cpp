@@ -14,12 +14,12 @@ namespace fs = std::filesystem;
 using experiment::InputError;
 
 OutputFile::OutputFile(fs::path name) : name_(std::move(name)) {
-    if (name_.empty()) throw InputError("a file to write needs a name");
+    if (name_.empty()) throw InputError("the name of an output file is empty; give it one");
     std::error_code unknown;  // then opening fails as well
     const fs::file_status present = fs::symlink_status(name_, unknown);
     // To rename over a device or a link would replace it.
     if (fs::exists(present) && !fs::is_regular_file(present)) {
-        throw InputError(name_.string() + ": is there already, and is not a plain file");
+        throw InputError(name_.string() + ": exists and is not a regular file; give another name");
     }
     const fs::path unfinished = name_.string() + ".part";
     fs::remove(unfinished, unknown);  // what was left there, were it a link to something of value

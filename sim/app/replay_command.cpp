@@ -59,7 +59,7 @@ std::int64_t next_round(std::int64_t round) {
 FrameChoice choose_frames(const ReplayOptions& options, const sim::Settings& settings) {
     FrameChoice frames{options.from, options.to.value_or(settings.run.cycles), 1};
     if (frames.to > settings.run.cycles) {
-        throw InputError(fmt::format("--to: the run has {} cycles", settings.run.cycles));
+        throw InputError(fmt::format("--to: the run has only {} cycles", settings.run.cycles));
     }
     if (frames.from >= frames.to) {
         throw InputError(
@@ -114,7 +114,7 @@ struct Outputs {
         }
         for (const auto* name : {&options.output, &options.genealogy}) {
             if (*name == "-")
-                throw InputError("a replay needs a file to go to, not standard output");
+                throw InputError("--output: a replay cannot go to standard output; give a file");
         }
         require_different({{"--output", options.output.value_or("")},
                            {"--genealogy", options.genealogy.value_or("")}});

@@ -68,7 +68,8 @@ void add_reproduce_command(CLI::App& app, int& status) {
     command->footer(
         "Two tasks, each with gene clocks and with timestamps, 64 runs of 100 robots each: the "
         "studies\n"
-        "gecco15 and, if asked for, gecco15-as-printed. What was made before is not made again.\n\n"
+        "gecco15 and, if asked for, gecco15-as-printed. Runs that are finished are not executed "
+        "again.\n\n"
         "Examples:\n"
         "  gene-clocks reproduce --quick\n"
         "  gene-clocks reproduce --as-printed --output results\n");

@@ -150,7 +150,7 @@ int run(const RunOptions& options) {
 }  // namespace
 
 void add_run_command(CLI::App& app, int& status) {
-    auto* command = app.add_subcommand("run", "Make one run and show what came of it");
+    auto* command = app.add_subcommand("run", "Execute one run and show its results");
     auto options = std::make_shared<RunOptions>();
     options->selection.add_to(*command);
     command

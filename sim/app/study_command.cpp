@@ -45,9 +45,8 @@ int run(const Options& options, const StudyExecutor& executor) {
 }  // namespace
 
 void add_study_command(CLI::App& app, int& status, StudyExecutor executor) {
-    auto* command = app.add_subcommand(
-        "study",
-        "Make all runs of a study, or those that are still missing, and keep them in a store");
+    auto* command =
+        app.add_subcommand("study", "Execute the runs of a study that its store does not hold yet");
     auto options = std::make_shared<Options>();
     command
         ->add_option("STUDY", options->study,
@@ -73,7 +72,7 @@ void add_study_command(CLI::App& app, int& status, StudyExecutor executor) {
         builtin_studies() +
         "\nA study that was stopped, by Ctrl-C or a power cut, goes on where it was when the same "
         "command\n"
-        "is given again; finished runs are never made twice.\n\n"
+        "is given again; finished runs are never executed twice.\n\n"
         "Examples:\n"
         "  gene-clocks study gecco15 --quick\n"
         "  gene-clocks study gecco15 --dry-run\n"

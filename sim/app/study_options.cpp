@@ -14,7 +14,8 @@ void StudyCommandOptions::add_to(CLI::App& command) {
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}));
     add_assignments(command, assignments);
     command
-        .add_option("--threads", threads, "Runs made at a time; without it one for each processor")
+        .add_option("--threads", threads,
+                    "Runs executed at a time; without it one for each processor")
         ->type_name("N")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1024}));
 }

@@ -9,7 +9,8 @@ using experiment::InputError;
 
 const std::string& checked(const std::string& name, const sim::Settings& settings) {
     if (settings.source != sim::Source::gene_clock) {
-        throw InputError("--trace: only robots with gene clocks leave a trace");
+        throw InputError(
+            "--trace: only robots with gene clocks leave a trace; use --source gene-clock");
     }
     if (name == "-") {
         throw InputError("--trace: needs a file, for standard output is where the result goes");

@@ -49,8 +49,9 @@ std::map<Family, const ArmNumbers*> named_baselines(const std::vector<ArmNumbers
         const ArmNumbers& numbers = all[static_cast<std::size_t>(place - names.begin())];
         const auto [known, is_new] = baselines.emplace(family_of(*numbers.arm), &numbers);
         if (!is_new && known->second != &numbers) {
-            throw InputError(fmt::format("--against: \"{}\" and \"{}\" are of one task and profile",
-                                         known->second->arm->name, name));
+            throw InputError(fmt::format(
+                "--against: \"{}\" and \"{}\" are of one task and profile; name one of them",
+                known->second->arm->name, name));
         }
     }
     return baselines;
@@ -85,8 +86,8 @@ void check(const ContrastPlan& plan) {
                                      fmt::join(names, ", ")));
     }
     const auto is_share = [](double value) { return value > 0.0 && value < 1.0; };
-    if (!is_share(plan.margin_share)) throw InputError("the margin is not between 0 and 1");
-    if (!is_share(plan.level)) throw InputError("the level is not between 0 and 1");
+    if (!is_share(plan.margin_share)) throw InputError("--margin: is not between 0 and 1");
+    if (!is_share(plan.level)) throw InputError("--level: is not between 0 and 1");
     for (const std::string& key : plan.over) {
         if (experiment::find_setting(key) == nullptr) {
             throw InputError(fmt::format("--over: there is no setting \"{}\"{}", key,
@@ -160,8 +161,9 @@ bool has_margin(const ContrastPair& pair, const ContrastPlan& plan) {
 const std::vector<double>& values_of(const ArmNumbers& numbers, const ContrastPlan& plan) {
     const auto found = numbers.values.find(plan.measure);
     if (found == numbers.values.end() || found->second.size() != numbers.runs.size()) {
-        throw InputError(fmt::format("arm \"{}\": its runs are too short for {}", numbers.arm->name,
-                                     plan.measure));
+        throw InputError(fmt::format(
+            "arm \"{}\": its runs are too short for {}; choose another measure with --measure",
+            numbers.arm->name, plan.measure));
     }
     return found->second;
 }

@@ -109,7 +109,7 @@ void Coordinator::handle(Job& job, const Message& message) {
             if (!job.failure) job.failure = failure_of(message);
             break;
         default:
-            throw std::runtime_error("a worker sent what no worker sends");
+            throw std::runtime_error("a worker sent a message of an unknown kind");
     }
 }
 
@@ -127,10 +127,10 @@ void Coordinator::hand_out(Job& job, int rank) {
 void Coordinator::keep(Job& job, const Message& message) {
     Worker& worker = workers_[static_cast<std::size_t>(message.sender)];
     experiment::RunMessage run = experiment::decode(message.content);
-    if (!worker.assigned) throw std::runtime_error("a worker sent a run that it was not to make");
+    if (!worker.assigned) throw std::runtime_error("a worker sent a run that it was not given");
     const PlannedRun& planned = job.planned_runs[*std::exchange(worker.assigned, std::nullopt)];
     if (run.settings_hash != planned.settings_hash || run.seed != planned.seed) {
-        throw std::runtime_error("a worker made another run than it was to make");
+        throw std::runtime_error("a worker executed another run than it was given");
     }
     job.on_finished({&planned, std::move(run.result), run.wall_seconds});
     ++job.state.runs_finished;

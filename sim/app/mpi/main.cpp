@@ -23,7 +23,9 @@ int coordinate(Messenger& messenger, int argc, char** argv) {
     const int status = run_program(
         argc, argv, [&](const Study& study, const auto& store, auto threads, const auto& shard) {
             if (threads != 0) {
-                throw InputError("--threads: under mpirun each process makes one run at a time");
+                throw InputError(
+                    "--threads: under mpirun each process executes one run at a time; leave the "
+                    "option out");
             }
             return execute_study(
                 study, store, shard,
@@ -48,7 +50,7 @@ int work(Messenger& messenger, int argc, char** argv) {
         });
     if (!has_served || status != success) {
         fail(messenger, status,
-             fmt::format("process {} of {} cannot make the runs of the study", messenger.rank(),
+             fmt::format("process {} of {} cannot execute the runs of the study", messenger.rank(),
                          messenger.size()),
              stop);
     }

@@ -440,7 +440,8 @@ StoredStudy Store::study(const std::string& name) const {
     std::vector<std::string> names;
     for (const StoredStudy& study : all) names.push_back(study.name);
     const std::string& file = database_->getFilename();
-    if (all.empty()) throw InputError(file + ": holds no study yet");
+    if (all.empty())
+        throw InputError(file + ": holds no study yet; fill it with `gene-clocks study`");
     if (name.empty()) {
         if (all.size() == 1) return std::move(all.front());
         throw InputError(

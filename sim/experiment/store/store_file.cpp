@@ -36,7 +36,7 @@ InputError explain(const std::filesystem::path& file, const SQLite::Exception& e
         case SQLITE_READONLY:
             return unfit(file, "cannot be written: it is read-only");
         case SQLITE_CANTOPEN:
-            return unfit(file, "cannot be opened or made there");
+            return unfit(file, "cannot be opened or created there");
         case SQLITE_CORRUPT:
             return unfit(file, "is damaged");
         default:

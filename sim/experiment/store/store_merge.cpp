@@ -25,12 +25,12 @@ void refuse_the_same_file_twice(const fs::path& out, const std::vector<fs::path>
     };
     for (std::size_t i = 0; i < in.size(); ++i) {
         if (is_same(out, in[i])) {
-            throw InputError(fmt::format("{}: is the store that the others are to be merged into",
-                                         in[i].string()));
+            throw InputError(fmt::format(
+                "{}: is the output store; name only the stores that go into it", in[i].string()));
         }
         for (std::size_t j = 0; j < i; ++j) {
             if (is_same(in[i], in[j])) {
-                throw InputError(fmt::format("{}: is named twice", in[i].string()));
+                throw InputError(fmt::format("{}: is named twice; name it once", in[i].string()));
             }
         }
     }
@@ -69,14 +69,14 @@ public:
             const auto [known, is_new] = studies_.try_emplace(study.name, study, file);
             const std::string differs = is_new ? "" : difference(known->second.first, study);
             if (differs.empty()) continue;
-            throw InputError(fmt::format("{}: study {} is another one than in {}: it has {}", file,
+            throw InputError(fmt::format("{}: study {} differs from that in {}: it has {}", file,
                                          study.name, known->second.second, differs));
         }
         for (const auto& [key, hash] : store.trajectory_hashes()) {
             const auto [known, is_new] = runs_.try_emplace(key, hash, file);
             if (is_new || known->second.first == hash) continue;
             throw InputError(fmt::format(
-                "{}: the run with settings {} and seed {} is another one than in {}: trajectory "
+                "{}: the run with settings {} and seed {} differs from that in {}: trajectory "
                 "hashes {:016x} and {:016x}",
                 file, key.first, key.second, known->second.second, hash, known->second.first));
         }

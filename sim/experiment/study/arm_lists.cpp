@@ -234,10 +234,10 @@ std::size_t checked_product(const Place& place, const std::vector<Axis>& axes,
     std::size_t product = 1;
     for (const Axis& axis : axes) {
         if (axis.points.size() > maximum / product) {
-            throw key_error(place, "arm",
-                            fmt::format("its lists make the study have more than {} arms, the "
-                                        "most that there may be",
-                                        arms_maximum));
+            throw key_error(
+                place, "arm",
+                fmt::format("its lists give the study more than {} arms, the most that it may have",
+                            arms_maximum));
         }
         product *= axis.points.size();
     }

@@ -173,7 +173,7 @@ Study read_study(const Document& document, const StudyOptions& options) {
             read_settings(document, *settings, unused);  // refuses what --quick would
         }
     } else if (options.quick) {
-        throw InputError(document.name + ": has no section [quick]");
+        throw InputError(document.name + ": has no section [quick], which --quick needs");
     }
     study.seeds = options.seeds.value_or(study.seeds);
 
@@ -182,8 +182,10 @@ Study read_study(const Document& document, const StudyOptions& options) {
         const Place place = document.place_of(*table);
         for (const ArmPlan& plan : expand_arm(document, *table, arms_maximum - study.arms.size())) {
             if (!names.insert(plan.name).second) {
-                throw key_error(place, "arm.name",
-                                fmt::format("there are two arms \"{}\"", plan.name));
+                throw key_error(
+                    place, "arm.name",
+                    fmt::format("there are two arms \"{}\"; give one of them another name",
+                                plan.name));
             }
             study.arms.push_back(read_arm(document, place, plan, common, options));
         }

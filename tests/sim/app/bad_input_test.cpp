@@ -174,7 +174,8 @@ TEST_F(BadInputTest, Stores) {
                    "text.sqlite: is not a store of runs");
     expect_refusal(study("."), "is a folder");
     expect_refusal(study("text.sqlite/runs.sqlite"), "the folder text.sqlite cannot be made");
-    expect_refusal(study("/proc/runs.sqlite"), "/proc/runs.sqlite: cannot be opened or made there");
+    expect_refusal(study("/proc/runs.sqlite"),
+                   "/proc/runs.sqlite: cannot be opened or created there");
     expect_refusal({"export", "none.sqlite", "--runs", "runs.csv"},
                    "none.sqlite: there is no such store");
     expect_refusal({"report", "none.sqlite"}, "none.sqlite: there is no such store");
@@ -197,8 +198,8 @@ TEST_F(BadInputTest, OtherStudiesAndPathsOnExport) {
     };
     expect_refusal(contrast("--csv", "none/contrast.csv"), "none/contrast.csv: cannot be written");
     expect_refusal(contrast("--measure", "f_d"), "no measure \"f_d\"; did you mean f_c?");
-    expect_refusal(contrast("--margin", "0"), "the margin is not between 0 and 1");
-    expect_refusal(contrast("--level", "2"), "the level is not between 0 and 1");
+    expect_refusal(contrast("--margin", "0"), "--margin: is not between 0 and 1");
+    expect_refusal(contrast("--level", "2"), "--level: is not between 0 and 1");
     expect_refusal(contrast("--paired-csv", "none/paired.csv"),
                    "none/paired.csv: cannot be written");
     expect_refusal({"contrast", "runs.sqlite", "--against", "some", "--baseline", "radio.loss=0"},

@@ -151,14 +151,17 @@ TEST_F(CommandLineTest, BuiltinFilesCanBeCopied) {
 
 TEST_F(CommandLineTest, DryRunOnlyShowsThePlan) {
     const std::string plan = output_of({"study", "gecco15", "--dry-run", "--threads", "1"});
-    EXPECT_THAT(plan, HasSubstr("4 arms x 64 seeds = 256 runs, 1280.0 M robot-steps\n"
-                                "results/gecco15.sqlite: is yet to be made\nabout "));
+    EXPECT_THAT(
+        plan,
+        HasSubstr("4 arms x 64 seeds = 256 runs, 1280.0 M robot-steps\n"
+                  "results/gecco15.sqlite: does not exist yet; the study will create it\nabout "));
     EXPECT_THAT(plan, HasSubstr(" on this machine with 1 thread, judged by trying out"));
     EXPECT_THAT(output_of({"study", "gecco15", "--quick", "--dry-run"}),
                 HasSubstr("4 arms x 8 seeds = 32 runs"));
     EXPECT_THAT(output_of({"study", "gecco15", "--dry-run", "--shard", "3/10"}),
                 HasSubstr("\nshard 3 of 10: 26 runs, 130.0 M robot-steps\n"
-                          "results/gecco15-shard-3-of-10.sqlite: is yet to be made\n"));
+                          "results/gecco15-shard-3-of-10.sqlite: does not exist yet; the study "
+                          "will create it\n"));
     EXPECT_TRUE(folder.is_empty());
 }
 
@@ -173,13 +176,13 @@ TEST_F(CommandLineTest, DryRunTellsWhatIsStillMissing) {
     Program::Arguments dry_run = study("5");
     dry_run.emplace_back("--dry-run");
     const std::string plan = output_of(dry_run);
-    EXPECT_THAT(plan, HasSubstr("x.sqlite: 8 of 20 runs are there already, 12 are missing, "
+    EXPECT_THAT(plan, HasSubstr("x.sqlite: 8 of 20 runs are finished, 12 are missing, "
                                 "0.0 M robot-steps\n"));
     EXPECT_THAT(plan, testing::ContainsRegex("\nabout [0-9]+:[0-9][0-9] on this machine"));
-    EXPECT_THAT(plan, HasSubstr("judged by the 8 runs that are there\n"));
+    EXPECT_THAT(plan, HasSubstr("judged by the 8 runs in the store\n"));
     dry_run = study("2");
     dry_run.emplace_back("--dry-run");
-    EXPECT_THAT(output_of(dry_run), testing::EndsWith("8 of 8 runs are there already, 0 are "
+    EXPECT_THAT(output_of(dry_run), testing::EndsWith("8 of 8 runs are finished, 0 are "
                                                       "missing, 0.0 M robot-steps\n"));
     EXPECT_EQ(test::read_all(folder / "x.sqlite"), store);
 }

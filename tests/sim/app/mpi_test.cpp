@@ -83,12 +83,12 @@ protected:
 TEST_F(MpiTest, GivesTheSameStore) {
     const auto result = run(3, arguments("x.sqlite"));
     ASSERT_EQ(result.status, 0) << result.messages;
-    EXPECT_THAT(result.messages, HasSubstr("x: making 40 runs"));
-    EXPECT_THAT(result.messages, HasSubstr("x.sqlite: all 40 runs are there"));
+    EXPECT_THAT(result.messages, HasSubstr("x: executing 40 runs"));
+    EXPECT_THAT(result.messages, HasSubstr("x.sqlite: all 40 runs are finished"));
     EXPECT_EQ(contents("x.sqlite"), whole());
     const auto again = run(3, arguments("x.sqlite"));
     EXPECT_EQ(again.status, 0) << again.messages;
-    EXPECT_THAT(again.messages, HasSubstr("40 of 40 runs are there already"));
+    EXPECT_THAT(again.messages, HasSubstr("40 of 40 runs are finished already"));
 }
 
 TEST_F(MpiTest, TheRunsAreMadeByTheWorkers) {
@@ -129,7 +129,7 @@ TEST_F(MpiTest, AShardIsAShard) {
 TEST_F(MpiTest, OneProcessIsTheOrdinaryProgram) {
     const auto result = run(1, arguments("x.sqlite", "1"));
     EXPECT_EQ(result.status, 0) << result.messages;
-    EXPECT_THAT(result.messages, HasSubstr("all 5 runs are there"));
+    EXPECT_THAT(result.messages, HasSubstr("all 5 runs are finished"));
 }
 
 TEST_F(MpiTest, AKilledWorkerLeavesAWholeStoreThatASecondStartGoesOnFrom) {
@@ -163,7 +163,7 @@ TEST_F(MpiTest, CtrlCKeepsFinishedRuns) {
     }
     const auto result = run(3, arguments("x.sqlite"));
     ASSERT_EQ(result.status, 0) << result.messages;
-    EXPECT_THAT(result.messages, HasSubstr("runs are there already"));
+    EXPECT_THAT(result.messages, HasSubstr("runs are finished already"));
     EXPECT_EQ(contents("x.sqlite"), whole());
 }
 
@@ -189,7 +189,7 @@ TEST_F(MpiTest, BadInputIsRefusedOnceAndWritesNothing) {
     refused({"study", "x.toml", "--store", "x.sqlite", "--sede", "3"}, "did you mean --seeds?");
     refused({"study", "none.toml"}, "none.toml: there is no such file");
     refused({"study", "x.toml", "--store", "x.sqlite", "--threads", "2"},
-            "--threads: under mpirun each process makes one run at a time");
+            "--threads: under mpirun each process executes one run at a time");
     folder.write("full.toml",
                  "name = \"full\"\nwidth_px = 30\nheight_px = 30\nwalls = []\n"
                  "frame = { left_px = 5, top_px = 5, right_px = 5, bottom_px = 5 }\n");
@@ -224,7 +224,7 @@ TEST_F(MpiTest, AWorkerWithAnotherStudyIsRefused) {
     std::filesystem::remove(folder / "other/x.toml");
     const auto without = Program(folder.path(), separate, MPIRUN).wait();
     EXPECT_EQ(without.status, 2) << without.messages;
-    EXPECT_THAT(without.messages, HasSubstr("process 1 of 2 cannot make the runs of the study"));
+    EXPECT_THAT(without.messages, HasSubstr("process 1 of 2 cannot execute the runs of the study"));
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ TEST_F(ReplayTest, WhatCannotBeShownIsRefusedAndNothingIsWritten) {
     refused({"--ouput", "run.html"}, "did you mean --output?");
     refused({"--output", "run.html", "--set", "run.cycels=5"}, "did you mean run.cycles?");
     refused({"--output", "run.html", "--source", "gene-clok"}, "did you mean gene-clock?");
-    refused({"--output", "run.html", "--to", "1501"}, "--to: the run has 1500 cycles");
+    refused({"--output", "run.html", "--to", "1501"}, "--to: the run has only 1500 cycles");
     refused({"--output", "run.html", "--from", "1500"}, "--from: must come before");
     refused({"--output", "run.html", "--from", "20", "--to", "20"}, "--from: must come before");
     refused({"--output", "run.html", "--from", "-1"}, "--from");
@@ -131,7 +131,7 @@ TEST_F(ReplayTest, WhatCannotBeShownIsRefusedAndNothingIsWritten) {
             "--every: 1000001 frames of 30 robots make a page of about 240 MB, more than 200");
     refused({"--output", ""}, "needs a name");
     refused({"--output", "-"}, "not standard output");
-    refused({"--output", "."}, "not a plain file");
+    refused({"--output", "."}, "not a regular file");
     refused({"--output", "no/such/folder/run.html"}, "cannot be written there");
     refused({"--output", "run.html", "--genealogy", "./run.html"},
             "--genealogy: --output goes to ./run.html already");

@@ -96,7 +96,7 @@ TEST_F(ResumeTest, AStudyThatIsInterruptedTenTimesEndsAsOneThatWasNot) {
     EXPECT_LE(killed, 8);
     const auto last = test::gene_clocks(folder.path(), arguments("interrupted.sqlite", "60"));
     ASSERT_EQ(last.status, 0) << last.messages;
-    EXPECT_THAT(last.messages, HasSubstr("of 120 runs are there already"));
+    EXPECT_THAT(last.messages, HasSubstr("of 120 runs are finished already"));
     EXPECT_EQ(contents("interrupted.sqlite"), whole);
 }
 
@@ -121,7 +121,7 @@ TEST_F(ResumeTest, AFinishedStudyIsNotMadeAgain) {
     const std::string bytes = test::read_all(folder / "whole.sqlite");
     const auto again = test::gene_clocks(folder.path(), arguments("whole.sqlite", "2"));
     EXPECT_EQ(again.status, 0);
-    EXPECT_THAT(again.messages, HasSubstr("4 of 4 runs are there already"));
+    EXPECT_THAT(again.messages, HasSubstr("4 of 4 runs are finished already"));
     const auto runs = [&](const char* store) {
         return test::gene_clocks(folder.path(), {"export", store, "--runs", "-"}).output;
     };
@@ -132,8 +132,8 @@ TEST_F(ResumeTest, AFinishedStudyIsNotMadeAgain) {
 TEST_F(ResumeTest, MoreSeedsOnlyMakeWhatIsMissing) {
     EXPECT_EQ(test::gene_clocks(folder.path(), arguments("more.sqlite", "1")).status, 0);
     const auto result = test::gene_clocks(folder.path(), arguments("more.sqlite", "3"));
-    EXPECT_THAT(result.messages, HasSubstr("2 of 6 runs are there already"));
-    EXPECT_THAT(result.messages, HasSubstr("making 4 runs"));
+    EXPECT_THAT(result.messages, HasSubstr("2 of 6 runs are finished already"));
+    EXPECT_THAT(result.messages, HasSubstr("executing 4 runs"));
     EXPECT_EQ(contents("more.sqlite"), uninterrupted("3"));
 }
 

@@ -54,23 +54,25 @@ TEST_F(ShardTest, ShardsThatAreMergedAreTheWholeStudy) {
     expect_success({"study", "x.toml", "--shard", "3/3"}, "x-shard-3-of-3.sqlite: all 13 runs");
     expect_success({"merge", "all.sqlite", "results/x-shard-1-of-3.sqlite",
                     "results/x-shard-2-of-3.sqlite", "results/x-shard-3-of-3.sqlite"},
-                   "all.sqlite: 40 runs were added, 40 are there now");
+                   "all.sqlite: 40 runs were added; it holds 40 now");
     EXPECT_EQ(test::store_contents(folder.path(), "all.sqlite"), whole());
-    expect_success({"study", "x.toml", "--store", "all.sqlite"}, "40 of 40 runs are there already");
+    expect_success({"study", "x.toml", "--store", "all.sqlite"},
+                   "40 of 40 runs are finished already");
     expect_success({"merge", "all.sqlite", "results/x-shard-2-of-3.sqlite"},
-                   "all.sqlite: 0 runs were added, 40 are there now");
+                   "all.sqlite: 0 runs were added; it holds 40 now");
 }
 
 TEST_F(ShardTest, AStudyGoesOnFromMergedShards) {
     expect_success({"study", "x.toml", "--shard", "1/3", "--store", "a.sqlite"}, "all 14 runs");
     expect_success({"merge", "x.sqlite", "a.sqlite"}, "14 runs were added");
-    expect_success({"study", "x.toml", "--store", "x.sqlite"}, "14 of 40 runs are there already");
+    expect_success({"study", "x.toml", "--store", "x.sqlite"},
+                   "14 of 40 runs are finished already");
     EXPECT_EQ(test::store_contents(folder.path(), "x.sqlite"), whole());
 }
 
 TEST_F(ShardTest, MoreShardsThanRunsLeaveSomeEmpty) {
     expect_success({"study", "x.toml", "--shard", "41/41", "--store", "a.sqlite"}, "");
-    expect_success({"merge", "b.sqlite", "a.sqlite"}, "0 runs were added, 0 are there now");
+    expect_success({"merge", "b.sqlite", "a.sqlite"}, "0 runs were added; it holds 0 now");
 }
 
 TEST_F(ShardTest, StoresThatContradictEachOtherAreNotMerged) {
@@ -89,7 +91,7 @@ TEST_F(ShardTest, StoresThatContradictEachOtherAreNotMerged) {
         EXPECT_FALSE(std::filesystem::exists(folder / "new.sqlite"));
     };
     refused({"merge", "a.sqlite", "b.sqlite"},
-            "b.sqlite: study x is another one than in a.sqlite: it has other seeds");
+            "b.sqlite: study x differs from that in a.sqlite: it has other seeds");
     refused({"merge", "new.sqlite", "a.sqlite", "b.sqlite"}, "b.sqlite: study x is another one");
     refused({"merge", "a.sqlite", "a.sqlite"}, "a.sqlite: is the store that the others");
     refused({"merge", "new.sqlite", "a.sqlite", "./a.sqlite"}, "./a.sqlite: is named twice");

@@ -123,7 +123,7 @@ TEST_F(TraceTest, NothingIsWrittenWhereNoTraceCanBe) {
     folder.write("old.trace", "old");
     refused({"--source", "timestamp", "--trace", "old.trace"}, "only robots with gene clocks");
     refused({"--trace", "no/such/folder/run.trace"}, "folder/run.trace: cannot be written there");
-    refused({"--trace", "."}, ".: is there already, and is not a plain file");
+    refused({"--trace", "."}, ".: exists and is not a regular file");
     refused({"--trace", ""}, "needs a name");
     refused({"--trace", "-"}, "needs a file");
     std::filesystem::create_symlink("old.trace", folder / "link");

@@ -134,7 +134,7 @@ TEST_F(StoreMergeTest, RefusesAnotherRunOfTheSameKey) {
            "AND settings_hash = '" +
                study.arms[1].settings_hash + "'");
     const std::string message = "b.sqlite: the run with settings " + study.arms[1].settings_hash +
-                                " and seed 4 is another one than in ";
+                                " and seed 4 differs from that in ";
     expect_refusal(folder / "new.sqlite", {a, b}, message);
     expect_refusal(a, {b}, message);
     expect_refusal(folder / "new.sqlite", {a, b},
@@ -171,7 +171,7 @@ TEST_F(StoreMergeTest, RefusesAnotherStudyOfTheSameName) {
     for (const auto& [change_study, message] : cases) {
         const auto b = other(change_study);
         expect_refusal(folder / "new.sqlite", {a, b},
-                       "b.sqlite: study example is another one than in");
+                       "b.sqlite: study example differs from that in");
         expect_refusal(a, {b}, message);
     }
     EXPECT_NO_THROW(merge_stores(a, {other([](Study&) {})}));
@@ -188,7 +188,7 @@ TEST_F(StoreMergeTest, RefusesWhatIsNoStoreOrIsNamedTwice) {
     expect_refusal(fresh, {a, folder / "none.sqlite"}, "none.sqlite: there is no such store");
     expect_refusal(folder.path(), {a}, "is a folder");
     expect_refusal(folder / "none/new.sqlite", {a}, "none does not exist");
-    expect_refusal(a, {a}, "a.sqlite: is the store that the others are to be merged into");
+    expect_refusal(a, {a}, "a.sqlite: is the output store; name only the stores that go into it");
     expect_refusal(a, {b, folder / "link.sqlite"}, "link.sqlite: is the store that the others");
     expect_refusal(fresh, {a, b, folder / "link.sqlite"}, "link.sqlite: is named twice");
     change(b, "PRAGMA user_version = 99");

@@ -339,7 +339,7 @@ TEST_F(StoreTest, RefusesPathsWhereNoStoreCanBe) {
     EXPECT_THAT(input_error([&] { Store::open_for_writing(folder / "none/runs.sqlite"); }),
                 testing::HasSubstr("none does not exist"));
     EXPECT_THAT(input_error([&] { Store::open_for_writing("/proc/runs.sqlite"); }),
-                testing::HasSubstr("cannot be opened or made there"));
+                testing::HasSubstr("cannot be opened or created there"));
     EXPECT_THAT(input_error([&] { Store::open_for_reading(file); }),
                 testing::HasSubstr("no such store"));
     EXPECT_TRUE(folder.is_empty());
