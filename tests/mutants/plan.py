@@ -31,11 +31,12 @@ SWARMS = programs("property", "protocol", "swarm_property")
 OPERATORS = programs("property", "neat", "operators_property", "swarm_property")
 CORE = programs("unit", "sim/core", "simulation", "arena_map", "chronology", "control_cycle",
                 "item_field", "measures", "messages", "neighbour_index", "placement", "radio",
-                "run_results", "source_factory", "task", "world")
+                "run_counters", "run_results", "sample", "source", "source_factory", "task", "world")
 # Trajectories that are kept: they notice nearly everything, and do not say what. So they come last.
 GOLDENS = Step(faults.GOLDENS, ("trajectories",), r"^determinism\.goldens$")
 STATISTICS = programs("unit", "sim/statistics", "statistics")
 CONTRASTS = programs("unit", "sim/report", "report")
+STORE = programs("unit", "sim/experiment", "experiment")
 EXPLORER = programs("explorer", "model", "model")
 ORACLE = Step("oracle", ("oracle", "oracle_schedule", "oracle_replay", "oracle_random_traces",
                          "oracle_check_traces"), r"^oracle\.(counters_of_.*|traces)$")
@@ -61,6 +62,8 @@ AREAS = {
     "neat/": [NEAT, OPERATORS, PAPER, FUZZ, GOLDENS],
     "sim/statistics/": [STATISTICS],
     "sim/report/": [CONTRASTS],
+    "sim/experiment/": [STORE, CONTRASTS],
+    "sim/core/include/": [CORE, STORE],
     "sim/core/src/": [CORE, EXPERIMENTS, GOLDENS],
     "sim/": [EXPERIMENTS],
     "fuzz/": [FUZZ],
@@ -87,6 +90,8 @@ LIKELY = {
     "kernel.h/": "tests/protocol/gene_clock_test",
     "marks.hpp/": "tests/protocol/align_test",
     "local_time.hpp/": "tests/neat/timestamp_source_test",
+    "innovation_source.hpp/": "tests/neat/gene_clock_source_test",
+    "distance_measure.hpp/": "tests/neat/distance_test",
     "hybrid_logical_clock_source.hpp/": "tests/neat/comparison_sources_test",
     "congruence_class_source.hpp/": "tests/neat/comparison_sources_test",
     "random_identifier_source.hpp/": "tests/neat/comparison_sources_test",

@@ -8,8 +8,11 @@
 #include <gene_clocks/neat/hybrid_logical_clock_source.hpp>
 #include <gene_clocks/neat/mutation.hpp>
 #include <gene_clocks/neat/random_identifier_source.hpp>
+#include <gene_clocks/neat/timestamp_source.hpp>
 #include <gene_clocks/neat/unmerged_gene_clock_source.hpp>
+#include <initializer_list>
 #include <limits>
+#include <memory>
 #include <set>
 
 #include "tests/neat/sample_genomes.hpp"
@@ -43,6 +46,20 @@ TEST(UnmergedGeneClockSource, CountsAloneWhateverItHears) {
     EXPECT_TRUE(source.observe(Stamp{1000}));
     EXPECT_EQ(join(source, genome), mark(6, 3));
     EXPECT_EQ(source.mark_split(genome, 0, 0.0)->outgoing, mark(9, 3));
+}
+
+TEST(SourcesThatLearnNothing, TakeEveryMessageAndSendNoStamp) {
+    CongruenceClassSource steps(RobotId{3}, 10, genesis_marks);
+    ContentHashSource hashes(genesis_marks);
+    GlobalCounterSource counts(std::make_shared<InnovationRecord>(genesis_marks));
+    RandomIdentifierSource draws(genesis_marks, RandomStream(1, 1));
+    TimestampSource times(RobotId{3}, genesis_marks, {});
+    for (InnovationSource* source :
+         std::initializer_list<InnovationSource*>{&steps, &hashes, &counts, &draws, &times}) {
+        EXPECT_TRUE(source->observe(Stamp{largest}));
+        EXPECT_EQ(source->stamp(), Stamp{});
+        EXPECT_EQ(source->stamp_to_send(0), Stamp{});
+    }
 }
 
 TEST(CongruenceClassSource, StepsByTheNumberOfRobots) {

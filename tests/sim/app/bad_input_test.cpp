@@ -173,7 +173,7 @@ TEST_F(BadInputTest, Stores) {
     expect_refusal({"study", "gecco15", "--store", "text.sqlite", "--dry-run"},
                    "text.sqlite: is not a store of runs");
     expect_refusal(study("."), "is a folder");
-    expect_refusal(study("text.sqlite/runs.sqlite"), "the folder text.sqlite cannot be made");
+    expect_refusal(study("text.sqlite/runs.sqlite"), "the folder text.sqlite cannot be created");
     expect_refusal(study("/proc/runs.sqlite"),
                    "/proc/runs.sqlite: cannot be opened or created there");
     expect_refusal({"export", "none.sqlite", "--runs", "runs.csv"},

@@ -124,7 +124,7 @@ TEST_F(TraceTest, NothingIsWrittenWhereNoTraceCanBe) {
     refused({"--source", "timestamp", "--trace", "old.trace"}, "only robots with gene clocks");
     refused({"--trace", "no/such/folder/run.trace"}, "folder/run.trace: cannot be written there");
     refused({"--trace", "."}, ".: exists and is not a regular file");
-    refused({"--trace", ""}, "needs a name");
+    refused({"--trace", ""}, "the name of an output file is empty");
     refused({"--trace", "-"}, "needs a file");
     std::filesystem::create_symlink("old.trace", folder / "link");
     refused({"--trace", "link"}, "link: is there already");

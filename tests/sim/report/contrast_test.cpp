@@ -207,6 +207,8 @@ TEST(Contrast, SeedBySeedMayAskForOtherBaselines) {
     input.arms[2].settings.radio.loss = 0.5;
     const ContrastPlan by_source;
     const ContrastPlan by_loss = with_baselines({}, {.baseline = {"radio.loss=0"}});
+    EXPECT_EQ(with_baselines({}, {.over = {"radio.loss"}}).over,
+              std::vector<std::string>{"radio.loss"});
     const Contrasts found = contrast(input, by_source, by_loss);
     ASSERT_EQ(found.arms.size(), 1U);
     EXPECT_EQ(found.arms[0].arm, &input.arms[1]);
