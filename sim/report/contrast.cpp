@@ -46,13 +46,12 @@ Contrast contrast_of(const ArmNumbers& arm, const ArmNumbers& baseline, const Co
     return contrast;
 }
 
-InputError no_baseline(const Input& input, const ContrastPlan& plan,
-                       const std::vector<std::string>& left_out) {
-    std::string what = fmt::format("study \"{}\": no arm has a baseline", input.study);
+InputError nothing_to_compare(const Input& input, const std::vector<std::string>& left_out) {
+    std::string what = fmt::format("study \"{}\": there is nothing to compare", input.study);
     if (!left_out.empty()) what += "; " + left_out.front();
-    what += plan.against.empty() ? "; give another --baseline, or name an arm with --against"
-                                 : "; name other arms with --against";
-    return InputError(what);
+    return InputError(what +
+                      "; choose what is compared by --baseline KEY=VALUE or --against ARM, and in "
+                      "what by --measure NAME");
 }
 
 }  // namespace
@@ -84,7 +83,7 @@ Contrasts contrast(const Input& input, const ContrastPlan& plan, const ContrastP
         if (std::ranges::find(contrasts.left_out, what) == contrasts.left_out.end())
             contrasts.left_out.push_back(std::move(what));
     }
-    if (pairs.empty()) throw no_baseline(input, plan, contrasts.left_out);
+    if (pairs.empty()) throw nothing_to_compare(input, contrasts.left_out);
     contrasts.arms = contrast_pairs(pairs, plan);
     contrasts.paired = paired_contrasts(paired, paired_plan, &contrasts.left_out);
     return contrasts;

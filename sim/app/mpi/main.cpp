@@ -1,4 +1,4 @@
-// gene-clocks under mpirun: the first process is the program, the others make the runs of its
+// gene-clocks under mpirun: the first process is the program, the others execute the runs of its
 // study.
 #include <fmt/format.h>
 

@@ -28,7 +28,7 @@ struct RunRecord {
     sim::RunResult result;
     double wall_seconds{};
     std::string finished_at;      ///< UTC, ISO 8601
-    std::string program_version;  ///< of the program that made the run
+    std::string program_version;  ///< of the program that executed the run
 };
 
 /// How long runs took, all together.

@@ -11,11 +11,10 @@ namespace {
 
 /// The texts of a list, each checked by `check(text)`, which may throw InputError.
 template <typename Check>
-std::vector<std::string> read_list(const Document& document, TableReader& reader,
-                                   const toml::table& table, const char* key,
+std::vector<std::string> read_list(const Document& document, TableReader& reader, const char* key,
                                    const std::string& path, Check check) {
     std::vector<std::string> texts;
-    if (table.get(key) == nullptr) return texts;
+    if (reader.find(key) == nullptr) return texts;
     const toml::array& list = reader.array(key);
     if (list.empty()) throw reader.error(key, "is an empty list; leave it out, or fill it");
     for (const toml::node& node : list) {
@@ -30,17 +29,14 @@ std::vector<std::string> read_list(const Document& document, TableReader& reader
     return texts;
 }
 
-Baselines read_baselines(const Document& document, const toml::table& table, TableReader& reader,
-                         const std::string& path) {
+Baselines read_baselines(const Document& document, TableReader& reader, const std::string& path) {
     Baselines baselines;
-    baselines.baseline =
-        read_list(document, reader, table, "baseline", path, [](const std::string& text) {
-            sim::Settings unused;
-            assign(unused, text, "");
-        });
-    baselines.against =
-        read_list(document, reader, table, "against", path, [](const std::string&) {});
-    baselines.over = read_list(document, reader, table, "over", path, [](const std::string& text) {
+    baselines.baseline = read_list(document, reader, "baseline", path, [](const std::string& text) {
+        sim::Settings unused;
+        assign(unused, text, "");
+    });
+    baselines.against = read_list(document, reader, "against", path, [](const std::string&) {});
+    baselines.over = read_list(document, reader, "over", path, [](const std::string& text) {
         if (find_setting(text) == nullptr) {
             throw InputError(
                 fmt::format("there is no setting \"{}\"{}", text, suggest_setting(text)));
@@ -68,12 +64,12 @@ Baselines baselines_from(const nlohmann::json& json) {
 ContrastTable read_contrast_table(const Document& document, const toml::table& table) {
     TableReader reader(document, table, "contrast");
     ContrastTable contrast;
-    contrast.arms = read_baselines(document, table, reader, "contrast");
+    contrast.arms = read_baselines(document, reader, "contrast");
     const toml::table* paired = reader.table("paired");
     reader.refuse_other_keys();
     if (paired != nullptr) {
         TableReader paired_reader(document, *paired, "contrast.paired");
-        contrast.paired = read_baselines(document, *paired, paired_reader, "contrast.paired");
+        contrast.paired = read_baselines(document, paired_reader, "contrast.paired");
         paired_reader.refuse_other_keys();
     }
     return contrast;

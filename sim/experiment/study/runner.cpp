@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The threads that make the runs, and what they share with the thread that waits for them.
+/// The threads that execute the runs, and what they share with the thread that waits for them.
 class Workers {
 public:
     Workers(const std::vector<PlannedRun>& planned_runs, RunFunction simulate, std::size_t count)

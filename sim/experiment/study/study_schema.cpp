@@ -67,6 +67,18 @@ Json arm() {
             {"additionalProperties", false}};
 }
 
+/// The keys of [contrast] and of [contrast.paired].
+Json baselines() {
+    return {{"baseline", list_of(text)}, {"against", list_of(text)}, {"over", list_of(text)}};
+}
+
+Json contrast() {
+    Json properties = baselines();
+    properties["paired"] = {
+        {"type", "object"}, {"properties", baselines()}, {"additionalProperties", false}};
+    return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+}
+
 }  // namespace
 
 Json study_schema() {
@@ -85,6 +97,7 @@ Json study_schema() {
                       {{"type", "object"},
                        {"properties", {{"seeds", seeds}, {"settings", settings_object()}}},
                        {"additionalProperties", false}}},
+                     {"contrast", contrast()},
                      {"arm", list_of(arm())}}},
                    {"required", {"name", "title", "arm"}},
                    {"additionalProperties", false}});

@@ -4,6 +4,7 @@ import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 
 import figures
+import palette
 import quantities
 import sweep_figures
 from study_figures import ROWS_OF_A_FIGURE, arm_rows, finish, label_rows
@@ -18,7 +19,7 @@ PANELS = (
      {"missed": quantities.MISSED, "false": quantities.FALSE}),
     ("Bytes of the clock", "per message", {"stamps": quantities.STAMP}),
 )
-MARKS = (("#0072b2", "o"), ("#d55e00", "s"), ("#009e73", "^"))
+MARKERS = "os^"
 
 
 def figures_of(group, folder):
@@ -49,7 +50,7 @@ def _draw(group, rows, suffix):
     for axes, (title, unit, drawn) in zip(grid.flat, PANELS):
         handles = []
         for i, (label, quantity) in enumerate(drawn.items()):
-            colour, marker = MARKS[i]
+            colour, marker = palette.distinct(i).colour, MARKERS[i]
             shift = 0.22 * (i - (len(drawn) - 1) / 2)
             for place, row in enumerate(rows):
                 spread = None if isinstance(row, str) else quantity.of(group.arms[row])

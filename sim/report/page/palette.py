@@ -32,6 +32,11 @@ def baseline():
     return other(0)
 
 
+def distinct(position):
+    """One of three looks whose colours are far apart."""
+    return SOURCES[("gene-clock", "timestamp", "congruence-class")[position]]
+
+
 def highlight():
     """What stands out best beside the baseline."""
     return SOURCES["timestamp"]

@@ -217,10 +217,15 @@ TEST_F(BadInputTest, OtherStudiesAndPathsOnExport) {
                    "none/b.csv: cannot be written");
     expect_refusal(contrast("--baseline", "radio.los=0"),
                    "--baseline radio.los=0: radio.los: unknown key; did you mean radio.loss?");
-    expect_refusal(contrast("--baseline", "odneat.population=7"),
-                   "study \"gecco15-quick\": no arm has a baseline; navigation-gene-clock is left "
-                   "out: there is no arm with runs that has odneat.population=7 and is otherwise "
-                   "the same; give another --baseline, or name an arm with --against");
+    const auto nothing =
+        test::gene_clocks(folder.path(), contrast("--baseline", "odneat.population=7"));
+    EXPECT_EQ(nothing.status, 2);
+    for (const char* part : {"study \"gecco15-quick\": there is nothing to compare",
+                             "is left out: there is no arm with runs that has odneat.population=7 "
+                             "and is otherwise the "
+                             "same",
+                             "choose what is compared by --baseline KEY=VALUE or --against ARM"})
+        EXPECT_THAT(nothing.messages, testing::HasSubstr(part));
     expect_refusal({"contrast", "none.sqlite"}, "none.sqlite: there is no such store");
 }
 

@@ -296,7 +296,7 @@ grid.radio.loss = [0, 0.5]
     EXPECT_THAT(both.messages, HasSubstr("the studies one and two say different things"));
 }
 
-TEST_F(CommandLineTest, ContrastsOfTimeToTargetNameTheBest) {
+TEST_F(CommandLineTest, ContrastsNameTheBestThatTheyReferTo) {
     output_of({"study", "gecco15", "--quick", "--seeds", "3", "--set", "run.cycles=300",
                "world.robots=5"});
     const std::string store = "results/gecco15-quick.sqlite";
@@ -304,9 +304,9 @@ TEST_F(CommandLineTest, ContrastsOfTimeToTargetNameTheBest) {
                 testing::Not(HasSubstr("best swarm fitness")));
     const std::string over = "over 6 runs of navigation under profile gecco15";
     EXPECT_THAT(output_of({"contrast", store, "--measure", "f_b"}), HasSubstr("f_b against"));
-    EXPECT_THAT(output_of({"contrast", store, "--measure", "t_f"}), HasSubstr(over));
+    EXPECT_THAT(output_of({"contrast", store, "--measure", "f_a"}), HasSubstr(over));
     for (const char* option : {"--csv", "--paired-csv"}) {
-        const std::string csv = output_of({"contrast", store, "--measure", "t_f", option, "-"});
+        const std::string csv = output_of({"contrast", store, "--measure", "f_a", option, "-"});
         EXPECT_THAT(csv, HasSubstr(",best_swarm_fitness,best_over\n"));
         EXPECT_THAT(csv, HasSubstr(",6 runs of navigation under profile gecco15\n"));
     }

@@ -162,11 +162,14 @@ class SchemaTest(unittest.TestCase):
         arm = '[[arm]]\ntask = "navigation"\nsource = "gene-clock"\n'
         head = 'name = "x"\ntitle = "X"\n'
         self.assertTrue(self.validator("study").is_valid(tomllib.loads(head + arm)))
+        contrast = '[contrast]\nbaseline = ["radio.loss=0"]\npaired.over = ["radio.loss"]\n'
+        self.assertTrue(self.validator("study").is_valid(tomllib.loads(head + contrast + arm)))
         for text in (head, arm, head + "seed = 3\n" + arm, head + "seeds = 0\n" + arm,
                      head + arm + "settings.odneat.p_mate = 2\n", head + arm + "settings.world.robot = 3\n",
                      head + arm + 'settings.odneat.crossover = "none"\n',
                      head + arm.replace("navigation", "flight"), head + arm + "grid.radio.loss = 0.5\n",
                      'name = "a b"\ntitle = "X"\n' + arm, head + "[quick]\nseed = 1\n" + arm,
+                     head + "[contrast]\nbaselines = [\"radio.loss=0\"]\n" + arm,
                      head + arm + 'settings.run.cycles = "many"\n'):
             self.assertFalse(self.validator("study").is_valid(tomllib.loads(text)), text)
             with tempfile.TemporaryDirectory() as folder:

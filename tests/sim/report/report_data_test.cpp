@@ -55,7 +55,7 @@ TEST(ReportData, ChangesAgainstTheProfileAreListed) {
     EXPECT_EQ(changes, Json::array({{{"key", "radio.loss"}, {"profile", 0.0}, {"run", 0.25}}}));
 }
 
-TEST(ReportData, FixedValuesOfTable1AreHeldAgainstAllRuns) {
+TEST(ReportData, FixedValuesOfTable1AreComparedWithAllRuns) {
     const auto rows_that_differ = [](const Input& input) {
         std::vector<std::string> keys;
         const Json data = report_data(input);

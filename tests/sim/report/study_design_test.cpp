@@ -69,7 +69,7 @@ TEST(StudyDesign, ASweepIsComparedUnderEachConditionAndWithItsBase) {
               "navigation-timestamp-radio.loss=0");
 }
 
-TEST(StudyDesign, WhatHasNoCounterpartIsHeldAgainstTheOneAtTheBase) {
+TEST(StudyDesign, WhatHasNoCounterpartIsComparedWithTheOneAtTheBase) {
     const Input input = sample_study("drift");
     const auto comparisons = compare(input);
     const Group group = groups_of(comparisons).front();

@@ -62,7 +62,7 @@ TEST(Verdicts, AMedianAgreesUpToTheEndsOfTheRange) {
     EXPECT_EQ(range_agrees(find(high, "figure-9"), "paper", "added_elements"), true);
 }
 
-TEST(Verdicts, TheReferenceSystemIsHeldAgainstItsOwnParametersOnly) {
+TEST(Verdicts, TheReferenceSystemIsComparedWithItsOwnParametersOnly) {
     Input input;
     input.arms.push_back(constant_arm({.parameters = "A"}, 2.0, 0.1));
     const auto exhibits = judge(compare(input).front());

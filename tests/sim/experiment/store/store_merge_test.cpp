@@ -189,7 +189,7 @@ TEST_F(StoreMergeTest, RefusesWhatIsNoStoreOrIsNamedTwice) {
     expect_refusal(folder.path(), {a}, "is a folder");
     expect_refusal(folder / "none/new.sqlite", {a}, "none does not exist");
     expect_refusal(a, {a}, "a.sqlite: is the output store; name only the stores that go into it");
-    expect_refusal(a, {b, folder / "link.sqlite"}, "link.sqlite: is the store that the others");
+    expect_refusal(a, {b, folder / "link.sqlite"}, "link.sqlite: is the output store");
     expect_refusal(fresh, {a, b, folder / "link.sqlite"}, "link.sqlite: is named twice");
     change(b, "PRAGMA user_version = 99");
     expect_refusal(fresh, {a, b}, "b.sqlite: is a store of format 99");

@@ -177,7 +177,7 @@ TEST_F(StoreTest, OfEarlierVersionsKnowsNoContrasts) {
         store.put_study(study);
         store.put_run(example_run(study.arms[0], 3));
     }
-    SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec("DROP TABLE contrast");
+    SQLite::Database(file, SQLite::OPEN_READWRITE).exec("DROP TABLE contrast");
     EXPECT_FALSE(Store::open_for_reading(file).study("example").contrast);
     study.contrast = ContrastTable{{.over = {"radio.loss"}}, {}};
     {

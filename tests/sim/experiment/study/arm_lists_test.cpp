@@ -230,7 +230,7 @@ TEST(ArmLists, HaveALimit) {
                              "\ngrid.world.items = " + list(5) + "\n";
     EXPECT_EQ(expanded(text, 30), 30U);
     EXPECT_THAT(input_error([&] { expanded(text, 29); }),
-                HasSubstr("x.toml:1: arm: its lists make the study have more than 10000 arms"));
+                HasSubstr("x.toml:1: arm: its lists give the study more than 10000 arms"));
     // 1000 to the power of seven passes any counter's end.
     std::string many = std::string(head) + arm;
     for (const char* key :

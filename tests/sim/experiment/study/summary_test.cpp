@@ -50,7 +50,8 @@ TEST(Summary, NeedsASample) {
 }
 
 TEST(Summary, SaysWhatTimeToTargetRefersTo) {
-    const RunSummary summary = summarise(ramp(40), {.target_share = 0.5}, {20.0, "some runs"});
+    const RunSummary summary =
+        experiment::summarise(ramp(40), {.target_share = 0.5}, {20.0, "some runs"});
     EXPECT_EQ(summary.measures.t_f, 1000.0);
     EXPECT_EQ(summary.best.value, 20.0);
     EXPECT_EQ(summary.best.over, "some runs");
