@@ -76,7 +76,7 @@ private:
     std::vector<Activation> activations_;
     std::vector<std::size_t> active_;      // one for each robot
     std::vector<neat::GenomeId> genomes_;  // the same
-    std::vector<GeneNumber> fresh_;         // created since the last look at the swarm
+    std::vector<GeneNumber> fresh_;        // created since the last look at the swarm
 };
 
 }  // namespace gene_clocks::replay

@@ -130,7 +130,7 @@ TEST_F(ReplayTest, WhatCannotBeShownIsRefusedAndNothingIsWritten) {
     refused({"--output", "run.html", "--every", "1", "--set", "run.cycles=1000000"},
             "--every: 1000001 frames of 30 robots make a page of about 240 MB, more than 200");
     refused({"--output", ""}, "the name of an output file is empty");
-    refused({"--output", "-"}, "not standard output");
+    refused({"--output", "-"}, "cannot go to standard output");
     refused({"--output", "."}, "not a regular file");
     refused({"--output", "no/such/folder/run.html"}, "cannot be written there");
     refused({"--output", "run.html", "--genealogy", "./run.html"},

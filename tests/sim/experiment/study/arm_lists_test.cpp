@@ -238,11 +238,11 @@ TEST(ArmLists, HaveALimit) {
           "run.sample_period_cycles", "radio.delay_cycles", "timestamp.offset_cycles"}) {
         many += std::string("grid.") + key + " = " + list(1000) + "\n";
     }
-    EXPECT_THAT(input_error([&] { read(many); }), HasSubstr("x.toml:3: arm: its lists make"));
+    EXPECT_THAT(input_error([&] { read(many); }), HasSubstr("x.toml:3: arm: its lists give"));
     // The limit is on the study, not on each [[arm]].
     const std::string two = std::string(head) + arm + "grid.run.cycles = " + list(9999, 1000) +
                             "\n" + arm + "grid.run.cycles = " + list(2, 100) + "\n";
-    EXPECT_THAT(input_error([&] { read(two); }), HasSubstr("x.toml:7: arm: its lists make"));
+    EXPECT_THAT(input_error([&] { read(two); }), HasSubstr("x.toml:7: arm: its lists give"));
 }
 
 TEST(MarkingsStudy, HasEverySourceInBothTasks) {
