@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <gene_clocks/neat/distance.hpp>
 
 #include "tests/paper/paper_agents.hpp"
 
