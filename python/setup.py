@@ -43,11 +43,10 @@ class Sdist(sdist):
                      "authentication/src"):
             shutil.copytree(PROTOCOL / part, pathlib.Path(base_dir) / "protocol" / part,
                             dirs_exist_ok=True)
-        shutil.copy(HERE / "LICENSE" if IS_DISTRIBUTION else HERE.parent / "LICENSE", base_dir)
 
 
 sources = sorted(str(path.relative_to(HERE)) for path in (HERE / "native").glob("*.cpp"))
-includes = [PROTOCOL, PROTOCOL / "include", PROTOCOL / "storage/include"]
+includes = [PROTOCOL.parent, PROTOCOL / "include", PROTOCOL / "storage/include"]
 macros, libraries = [("GENE_CLOCKS_VERSION", f'"{VERSION}"')], []
 if has_sodium():
     includes.append(PROTOCOL / "authentication/include")
