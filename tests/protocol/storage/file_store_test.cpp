@@ -77,6 +77,7 @@ TEST_F(FileStoreTest, ReadsBackWhatItStored) {
         EXPECT_EQ(first.stored(), 23u);
         EXPECT_TRUE(first.store(40));
         EXPECT_TRUE(first.store(39)) << "a smaller counter is covered";
+        EXPECT_TRUE(first.store(40)) << "and so is the same";
         EXPECT_EQ(first.stored(), 40u);
         EXPECT_EQ(first.flushes(), 2u);
     }
