@@ -19,7 +19,7 @@ protected:
 
     std::set<InnovationNumber> marks_of_set(std::size_t set) const {
         std::set<InnovationNumber> marks;
-        for (const GeneIndex gene : history_.gene_sets()[set]) {
+        for (const GeneNumber gene : history_.gene_sets()[set]) {
             marks.insert(history_.genes()[gene].mark);
         }
         return marks;
@@ -122,7 +122,7 @@ TEST(GeneHistory, GenesisGenesComeFirst) {
         EXPECT_EQ(history.genes()[i].mark, (InnovationNumber{i + 1, genesis_robot}));
     }
     // 18 inputs and 2 outputs: the first connection joins the first input and the first output.
-    EXPECT_EQ(history.genes()[20].builds_upon, (std::vector<GeneIndex>{0, 18}));
+    EXPECT_EQ(history.genes()[20].builds_upon, (std::vector<GeneNumber>{0, 18}));
     EXPECT_TRUE(history.gene_sets().at(0).empty());
 }
 
@@ -152,7 +152,7 @@ TEST(GeneHistory, RebootsLoseGenesThatNobodyCarried) {
         EXPECT_GT(lost, 0u);
         for (std::size_t i = 0; i < 12; ++i) {
             std::set<InnovationNumber> active;
-            for (const GeneIndex gene : history.gene_sets()[history.active()[i]]) {
+            for (const GeneNumber gene : history.gene_sets()[history.active()[i]]) {
                 active.insert(history.genes()[gene].mark);
             }
             EXPECT_EQ(active, new_marks(run.end().genomes[i]));
