@@ -96,7 +96,7 @@ TEST_F(MpiTest, TheRunsAreMadeByTheWorkers) {
     GTEST_SKIP() << "asks how fast the program is";
 #endif
     Program program(folder.path(), mpirun(3, arguments("x.sqlite", "100000")), MPIRUN);
-    ASSERT_TRUE(program.wait_for_message("making"));
+    ASSERT_TRUE(program.wait_for_message("executing"));
     // Processor time of a process so far, in ticks.
     const auto ticks = [&](int rank) {
         const pid_t process = process_of_rank(program.process(), rank);
@@ -136,7 +136,7 @@ TEST_F(MpiTest, AKilledWorkerLeavesAWholeStoreThatASecondStartGoesOnFrom) {
     for (const int rank : {1, 2, 0}) {
         const std::string store = std::to_string(rank) + ".sqlite";
         Program program(folder.path(), mpirun(3, arguments(store, "100000")), MPIRUN);
-        ASSERT_TRUE(program.wait_for_message("making"));
+        ASSERT_TRUE(program.wait_for_message("executing"));
         // In the middle of its runs: it has used processor time since.
         std::this_thread::sleep_for(std::chrono::milliseconds(400));
         const pid_t process = process_of_rank(program.process(), rank);
@@ -156,7 +156,7 @@ TEST_F(MpiTest, CtrlCKeepsFinishedRuns) {
 #endif
     for (const int signal : {SIGINT, SIGTERM}) {
         Program program(folder.path(), mpirun(3, arguments("x.sqlite", "100000")), MPIRUN);
-        ASSERT_TRUE(program.wait_for_message("making"));
+        ASSERT_TRUE(program.wait_for_message("executing"));
         std::this_thread::sleep_for(std::chrono::milliseconds(400));
         program.signal(signal);
         EXPECT_NE(program.wait().status, 0);
@@ -169,7 +169,7 @@ TEST_F(MpiTest, CtrlCKeepsFinishedRuns) {
 
 TEST_F(MpiTest, AWorkerThatIsToldToStopStopsAll) {
     Program program(folder.path(), mpirun(3, arguments("x.sqlite", "100000")), MPIRUN);
-    ASSERT_TRUE(program.wait_for_message("making"));
+    ASSERT_TRUE(program.wait_for_message("executing"));
     std::this_thread::sleep_for(std::chrono::milliseconds(400));
     kill(process_of_rank(program.process(), 2), SIGTERM);
     const auto result = program.wait();

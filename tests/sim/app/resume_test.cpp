@@ -83,7 +83,7 @@ TEST_F(ResumeTest, AStudyThatIsInterruptedTenTimesEndsAsOneThatWasNot) {
     int killed = 0;
     while (interruptions < 10) {
         Program program(folder.path(), arguments("interrupted.sqlite", "60"));
-        ASSERT_TRUE(program.wait_for_message("making"));
+        ASSERT_TRUE(program.wait_for_message("executing"));
         std::this_thread::sleep_for(share() * duration);
         const bool kill = random() % 2 == 0;
         program.signal(kill ? SIGKILL : SIGINT);
@@ -103,7 +103,7 @@ TEST_F(ResumeTest, AStudyThatIsInterruptedTenTimesEndsAsOneThatWasNot) {
 TEST_F(ResumeTest, CtrlCKeepsFinishedRunsAndTellsHowToGoOn) {
     for (const int signal : {SIGINT, SIGTERM}) {
         Program program(folder.path(), arguments("stopped.sqlite", "100000"));
-        ASSERT_TRUE(program.wait_for_message("making"));
+        ASSERT_TRUE(program.wait_for_message("executing"));
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
         program.signal(signal);
         const auto result = program.wait();
@@ -139,7 +139,7 @@ TEST_F(ResumeTest, MoreSeedsOnlyMakeWhatIsMissing) {
 
 TEST_F(ResumeTest, AStoreIsForOneProcessAtATime) {
     Program first(folder.path(), arguments("shared.sqlite", "100000"));
-    ASSERT_TRUE(first.wait_for_message("making"));
+    ASSERT_TRUE(first.wait_for_message("executing"));
     const auto second = test::gene_clocks(folder.path(), arguments("shared.sqlite"));
     EXPECT_EQ(second.status, 2);
     EXPECT_THAT(second.messages, HasSubstr("shared.sqlite: is in use by another process"));

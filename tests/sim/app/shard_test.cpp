@@ -92,7 +92,7 @@ TEST_F(ShardTest, StoresThatContradictEachOtherAreNotMerged) {
     };
     refused({"merge", "a.sqlite", "b.sqlite"},
             "b.sqlite: study x differs from that in a.sqlite: it has other seeds");
-    refused({"merge", "new.sqlite", "a.sqlite", "b.sqlite"}, "b.sqlite: study x is another one");
+    refused({"merge", "new.sqlite", "a.sqlite", "b.sqlite"}, "b.sqlite: study x differs from that in a.sqlite");
     refused({"merge", "a.sqlite", "a.sqlite"}, "a.sqlite: is the output store");
     refused({"merge", "new.sqlite", "a.sqlite", "./a.sqlite"}, "./a.sqlite: is named twice");
     refused({"merge", "a.sqlite", "text.sqlite"}, "text.sqlite: is not a store of runs");

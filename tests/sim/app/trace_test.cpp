@@ -127,7 +127,7 @@ TEST_F(TraceTest, NothingIsWrittenWhereNoTraceCanBe) {
     refused({"--trace", ""}, "the name of an output file is empty");
     refused({"--trace", "-"}, "needs a file");
     std::filesystem::create_symlink("old.trace", folder / "link");
-    refused({"--trace", "link"}, "link: is there already");
+    refused({"--trace", "link"}, "link: exists and is not a regular file");
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
     EXPECT_EQ(test::read_all(folder / "old.trace"), "old");
     EXPECT_FALSE(std::filesystem::exists(folder / "old.trace.part"));

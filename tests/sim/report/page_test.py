@@ -304,7 +304,7 @@ class PageProgramTest(unittest.TestCase):
         self.assert_refused("", "report.json: Expecting value")
         self.assert_refused("[]", "format 1")
         self.assert_refused('{"format": 2}', "format 1")
-        self.assert_refused('{"format": 1}', "missing or misplaced.*groups")
+        self.assert_refused('{"format": 1}', "missing or misplaced.*sources")
         self.assert_refused('{"format": 1, "groups": [{}]}', "missing or misplaced")
 
     def test_data_that_lack_something_are_refused(self):
